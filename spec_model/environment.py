@@ -1,14 +1,14 @@
 """What sensors, link and clock may do to Board 1: time stamps as ages.
 
 Blocks that run before the charts.  Nothing is assumed of the inputs but what the interface says: a
-datum changes only together with its time stamp [seed Fig 13, §2.4].  An age is `now_ms` minus the
+datum changes only together with its time stamp [spec Fig 13, §2.4].  An age is `now_ms` minus the
 stamp, on the 20 ms grid: an update seen in a step carries the time of that step.  Time 0 is
 power-up with all stamps 0, and the first step is at 20 ms.
 
 An age stops growing at a value that stands for all larger ones, because no comparison of the charts
 can change beyond it:
 
-* links: 140 ms, the first age above 120 ms [seed Table 2];
+* links: 140 ms, the first age above 120 ms [spec Table 2];
 * temperature: 81 020 ms, where even the coldest reading, -16 °C, is assumed above 65 °C (1 °C/s);
 * battery: 154 780 ms, where even a charge of 80 % is assumed below 15 % (0.42 %/s);
 * both 500 ms later where the estimate counts from 0.5 s on (S09, S24).

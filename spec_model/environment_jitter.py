@@ -1,6 +1,6 @@
 """What a jitter of the period does: steps of 19 to 21 ms, ages that grow by them, frames that jitter too.
 
-The supervisors and the transmit tasks have a period of 20 ms [seed §1.2]; here each period lasts 19, 20 or
+The supervisors and the transmit tasks have a period of 20 ms [spec §1.2]; here each period lasts 19, 20 or
 21 ms, as it comes.  Timers of states count executed steps all the same (`after`, `duration`); ages, intervals
 and what a monitor of Table 2 holds for seconds are differences of time stamps, to the ms.
 """

@@ -16,7 +16,7 @@ from rovercheck.spec_model.lang.system import TICK_MS
 from rovercheck.spec_model.lang.words import minimum
 
 INTERVALS = 10
-"""The moving mean is over the last ten intervals [seed Table 2]."""
+"""The moving mean is over the last ten intervals [spec Table 2]."""
 
 LIMIT = 40
 """ms that the mean must not exceed."""

@@ -23,7 +23,7 @@ def slow_record(name: str, update: Var, *, exact: bool = True, moves: Var | None
     if exact:
         record = interval_record(Arrivals(name, update, moves=moves))
         return Block(
-            f"{name}.intervals", record, text="Mean of the last ten update intervals [seed Table 2]."
+            f"{name}.intervals", record, text="Mean of the last ten update intervals [spec Table 2]."
         )
     return Block(
         f"{name}.any_intervals",
@@ -69,7 +69,7 @@ def window_of(arrivals: Arrivals) -> Block:
     return Block(
         f"{arrivals.name}.arrivals",
         do,
-        text="Fewer than eleven updates within 400 ms: the mean interval exceeds 40 ms [seed Table 2].",
+        text="Fewer than eleven updates within 400 ms: the mean interval exceeds 40 ms [spec Table 2].",
     )
 
 

@@ -8,7 +8,7 @@ from rovercheck.supervisor.types import STEP_MS
 CLOCK = 1 << 32
 """The millisecond clock of a board starts again at 0 after 49.7 days."""
 INTERVALS = 10
-"""Intervals of a moving mean [seed Table 2]."""
+"""Intervals of a moving mean [spec Table 2]."""
 
 
 def elapsed_ms(now_ms: int, then_ms: int) -> int:
@@ -59,7 +59,7 @@ class Age:
 class IntervalMean:
     """Whether the last ten intervals between updates of a stamp are longer than ``mean_ms`` on average.
 
-    The interval from power-up to the first update is none [seed Table 2]; fewer than ten intervals say
+    The interval from power-up to the first update is none [spec Table 2]; fewer than ten intervals say
     nothing.
     """
 

@@ -7,7 +7,7 @@ STEP_MS = 20
 
 
 class Level(IntEnum):
-    """How well a component works: every status signal of both boards [seed Table 2]."""
+    """How well a component works: every status signal of both boards [spec Table 2]."""
 
     OK = 0
     DEGRADED = 1
@@ -15,7 +15,7 @@ class Level(IntEnum):
 
 
 class SafetyState(IntEnum):
-    """``rover_safety_state`` [seed Fig 20]."""
+    """``rover_safety_state`` [spec Fig 20]."""
 
     SAFETY_OK = 0
     SAFETY_DEGRADED = 1
@@ -23,7 +23,7 @@ class SafetyState(IntEnum):
 
 
 class SupervisorCommand(IntEnum):
-    """What a board does, or asks the other to do [seed Fig 12]."""
+    """What a board does, or asks the other to do [spec Fig 12]."""
 
     CMD_NORMAL = 0
     CMD_ROTATE_180 = 1

@@ -1,6 +1,6 @@
 """How old each source is said to be: 0 in the step of its datum, 20 ms more in every other step.
 
-Each age may stop growing at the first one above the limit of its source [seed Table 2, §3.1]: logs have
+Each age may stop growing at the first one above the limit of its source [spec Table 2, §3.1]: logs have
 older ones.
 """
 
@@ -50,7 +50,7 @@ PB1_37_TEMP = _age(
     "PB1-37-TEMP", "the temperature", temp_update, temp_age,
     choose("S09", {"FROM-LAST": _above(81_000), "FROM-0.5": _above(81_500)}), "B1-TEMP-04", "temperature",
 )  # fmt: skip
-"""At 1 °C/s even the coldest reading, -16 °C, is above 65 °C after 81 s [seed Table 2]."""
+"""At 1 °C/s even the coldest reading, -16 °C, is above 65 °C after 81 s [spec Table 2]."""
 PB1_37_BATT = _age(
     "PB1-37-BATT", "the battery", batt_update, batt_age,
     choose("S24", {
@@ -60,7 +60,7 @@ PB1_37_BATT = _age(
     }),
     "B1-BATT-05", "battery",
 )  # fmt: skip
-"""At 0.42 %/s even a charge of 80 % is below 15 % after 154.762 s [seed Table 2]."""
+"""At 0.42 %/s even a charge of 80 % is below 15 % after 154.762 s [spec Table 2]."""
 PB2_29_SUP, PB2_29_BLE, PB2_29_IMU, PB2_29_RX = (
     _age(
         f"PB2-29-{source.region}", what, source.update, source.age, _above(source.limit),

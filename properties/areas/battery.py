@@ -1,4 +1,4 @@
-"""What must be true of the battery status of Board 1 [seed Table 2]."""
+"""What must be true of the battery status of Board 1 [spec Table 2]."""
 
 from rovercheck.properties.document.battery import absent, critical_range, fresh, stale_below_15
 from rovercheck.properties.forms import always, holds_after, reachable, until

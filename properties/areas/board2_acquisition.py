@@ -1,4 +1,4 @@
-"""What must be true of the sonar and joystick tasks of Board 2, and of stale sonar data [seed §1.3]."""
+"""What must be true of the sonar and joystick tasks of Board 2, and of stale sonar data [spec §1.3]."""
 
 from rovercheck.properties.document.distances import NO_ECHO
 from rovercheck.properties.forms import always, enters_only_if, reachable, responds
@@ -35,7 +35,7 @@ from rovercheck.spec_model.signals.board2_supervisor import critical_mask, degra
 
 JOYSTICK, SONAR, SILENT = "acquisition_joystick", "acquisition_sonar", "sonar_silence"
 
-# --- joystick [seed §1.3.2, Fig 9] -------------------------------------------------------------------
+# --- joystick [spec §1.3.2, Fig 9] -------------------------------------------------------------------
 
 PUBLISHED = (axis_x, axis_y, button1, button2)
 
@@ -76,7 +76,7 @@ REACH_BLE_KEPT = reachable(
     that=~complete & (last_valid != last_run) & (axis_y > 0), covers=["B2-BLE-02", "B2-BLE-03"], on=JOYSTICK,
 )  # fmt: skip
 
-# --- sonar [seed §1.3.1, Fig 8] ------------------------------------------------------------------------
+# --- sonar [spec §1.3.1, Fig 8] ------------------------------------------------------------------------
 
 scanning = sonar_task.active("Scanning")
 triggered = scanning & ~previous(scanning)

@@ -1,4 +1,4 @@
-"""What must be true of the wheel speeds that Board 2 commands [seed §3.1] (E25)."""
+"""What must be true of the wheel speeds that Board 2 commands [spec §3.1] (E25)."""
 
 from rovercheck.properties.forms import always, holds_after, reachable
 from rovercheck.spec_model.lang.expr import all_of, implies

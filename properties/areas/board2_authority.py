@@ -1,4 +1,4 @@
-"""What must be true of the authorisation of Board 2 and of the state it then works in (E22) [seed §3.1]."""
+"""What must be true of the authorisation of Board 2 and of the state it then works in (E22) [spec §3.1]."""
 
 from rovercheck.properties.document.causes import emergency, q
 from rovercheck.properties.document.distances import within

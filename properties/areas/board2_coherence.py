@@ -1,4 +1,4 @@
-"""What must be true of the coherence of IMU and odometry on Board 2 [seed §2.2 for the purpose]."""
+"""What must be true of the coherence of IMU and odometry on Board 2 [spec §2.2 for the purpose]."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""What must be true of the fault masks of Board 2 and of the classes of faults [seed §2.2, §3.1] (E24)."""
+"""What must be true of the fault masks of Board 2 and of the classes of faults [spec §2.2, §3.1] (E24)."""
 
 from rovercheck.properties.document.masks import BOARD_2
 from rovercheck.properties.forms import always, reachable

@@ -1,4 +1,4 @@
-"""What must be true of the four monitors of Board 2: each notices a silence, and only its own [seed §3.1].
+"""What must be true of the four monitors of Board 2: each notices a silence, and only its own [spec §3.1].
 
 `silent` is an age above the limit of the source.  Stamps carry the time of the step that sees them.
 """

@@ -1,4 +1,4 @@
-"""What must be true of the references with which Board 2 moves the rover [seed §3.1, §3.4.2, Fig 20]."""
+"""What must be true of the references with which Board 2 moves the rover [spec §3.1, §3.4.2, Fig 20]."""
 
 from rovercheck.properties.document.causes import emergency
 from rovercheck.properties.document.distances import within
@@ -51,7 +51,7 @@ braking = motion_supervision_2.active("In_frenata_di_emergenza")
 at_rest = motion_supervision_2.active("Motori_fermi")
 forward = ay_norm > 0
 
-# --- an obstacle within 3 m stops the rover [seed §3.4, §3.4.2] ------------------------------------
+# --- an obstacle within 3 m stops the rover [spec §3.4, §3.4.2] ------------------------------------
 
 
 def _stops(id: str, text: str, premise: Expr, steps: Span, then: Expr) -> Property:
@@ -159,7 +159,7 @@ PB2_16i = never(
     covers=["B2-REF-01"], on=EXECUTED, interpretations=["S62"],
 )  # fmt: skip
 
-# --- a critical cause stops the rover [seed §2.7, Fig 20] --------------------------------------------
+# --- a critical cause stops the rover [spec §2.7, Fig 20] --------------------------------------------
 
 PB2_17 = always(
     "PB2-17", "While Board 2 drives, a critical cause makes both references zero in the same step.",

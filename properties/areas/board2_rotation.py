@@ -1,4 +1,4 @@
-"""What must be true of running, rotation and stop of Board 2, state by state [seed §3.4.2, Fig 20]."""
+"""What must be true of running, rotation and stop of Board 2, state by state [spec §3.4.2, Fig 20]."""
 
 from rovercheck.properties.areas.board2_motion import EXECUTED, at_rest, braking, drives, normal, rotating
 from rovercheck.properties.forms import Property, always, enters_only_if, leaves_only_if, never

@@ -1,4 +1,4 @@
-"""What the frames of both directions carry, field by field, and what their arrival tells [seed §1.2, §2.4].
+"""What the frames of both directions carry, field by field, and what their arrival tells [spec §1.2, §2.4].
 
 A frame is sent in every step in which the sender has power, and is seen one step later, two steps later, or
 never; one that is seen in its first step is not seen again.
@@ -34,7 +34,7 @@ FROM_2: Fields = {
     "btn1": (b1.btn1, motion.btn1),
     "btn2": (b1.btn2, motion.btn2),
 }
-"""What Board 1 receives, and what it is on Board 2 [seed §2.2]; x_norm as the joystick says it."""
+"""What Board 1 receives, and what it is on Board 2 [spec §2.2]; x_norm as the joystick says it."""
 FROM_1: Fields = {
     "critical mask": (b2.crit_mask_b1, b1.critical_mask),
     "degraded mask": (b2.degr_mask_b1, b1.degraded_mask),

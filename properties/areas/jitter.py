@@ -38,7 +38,7 @@ from rovercheck.spec_model.signals.board2 import B2Decision, obj1Detected, obj2D
 DOCUMENT = (SUP, BLE, IMU, RX)
 SAID = ("the supervisor of Board 1", "the joystick link", "the IMU", "the reception from Board 1")
 
-# --- reception of Board 1 [seed Table 2] ----------------------------------------------------------------
+# --- reception of Board 1 [spec Table 2] ----------------------------------------------------------------
 
 CRITICAL = b1.rx_status == "RX_CRITICAL"
 PB1_43a = always(
@@ -77,7 +77,7 @@ def _lost(id: str, frames: int) -> Property:
 PB1_43d = _lost("PB1-43d", 5)
 PB1_43e = _lost("PB1-43e", 4)
 
-# --- the relay, the authorisation [seed §2.5, Fig 16] ---------------------------------------------------
+# --- the relay, the authorisation [spec §2.5, Fig 16] ---------------------------------------------------
 
 heard = named("frames and heartbeats came within 120 ms", (rx_age_ms <= 120) & (heartbeat_age_ms <= 120))
 uncritical = named("neither link is critical", ~CRITICAL & (b1.b2_sup_status != "SUP_CRITICAL"))
@@ -127,7 +127,7 @@ PB2_58c = holds_after(
     covers=["B2-ACT-01"], on="check_board1_jitter", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 
-# --- what is held for 4 s and 5 s, measured by time stamps [seed Table 2] -------------------------------
+# --- what is held for 4 s and 5 s, measured by time stamps [spec Table 2] -------------------------------
 
 
 def _held(
@@ -152,7 +152,7 @@ PB1_45c, PB1_45d = _held(
     "cd", "the battery becomes", 5, battery.CRITICAL, flat.critical_range, "battery_jitter", "B1-BATT-03",
 )  # fmt: skip
 
-# --- how long a stop lasts [seed §2.3] ------------------------------------------------------------------
+# --- how long a stop lasts [spec §2.3] ------------------------------------------------------------------
 
 PB1_46a = holds_for(
     "PB1-46a", "With jitter, an emergency stop of Board 1 lasts at least 1 s.",
@@ -175,7 +175,7 @@ PB2_59b = holds_for(
     covers=["B2-REF-01"], on="deaf_jitter", interpretations=["S62"],
 )  # fmt: skip
 
-# --- the monitors of Board 2 [seed §3.1] ----------------------------------------------------------------
+# --- the monitors of Board 2 [spec §3.1] ----------------------------------------------------------------
 
 AGES = {
     SUP.region: b1_sup_age_ms,
@@ -244,7 +244,7 @@ PB2_60j = _recovers("PB2-60j", RX, "the reception from Board 1", 950 * ms, free=
 PB2_60k = _recovers("PB2-60k", SUP, "the supervisor of Board 1", 2 * sec)
 PB2_60l = _recovers("PB2-60l", SUP, "the supervisor of Board 1", 1900 * ms, free=True)
 
-# --- the windows of 3 s for a passing obstacle [seed §3.4.1 (2b), Figs 24-27] ---------------------------
+# --- the windows of 3 s for a passing obstacle [spec §3.4.1 (2b), Figs 24-27] ---------------------------
 
 PASSING, WINDOW = "obstacles_passing_jitter", "obstacles_n_12_jitter"
 lost_1 = named("S1 loses its object", previous(obj1Detected) & ~obj1Detected)

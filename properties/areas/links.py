@@ -1,4 +1,4 @@
-"""What must be true of the reception and heartbeat statuses of Board 1 [seed Table 2].
+"""What must be true of the reception and heartbeat statuses of Board 1 [spec Table 2].
 
 Bits 2 and 7 of the masks follow the two statuses by PB1-10.
 """

@@ -1,4 +1,4 @@
-"""What must be true of the link statuses of Board 1 when updates come at any ms [seed Table 2].
+"""What must be true of the link statuses of Board 1 when updates come at any ms [spec Table 2].
 
 The properties of ``links``, said again where an age and an interval are exact to the ms.
 """

@@ -8,7 +8,7 @@ from rovercheck.spec_model.lang.time import ticks
 from rovercheck.spec_model.signals.board1 import is_rotating180
 from rovercheck.spec_model.signals.board2 import B2Decision, d1, d2, d3, prevDEG_B1
 
-# --- the stop of Board 1 is released [seed §2.3]; steps are those in which Board 1 actuates ----------
+# --- the stop of Board 1 is released [spec §2.3]; steps are those in which Board 1 actuates ----------
 
 RESUMES = ("B1-EST-01", "B1-ACT-01")
 
@@ -24,7 +24,7 @@ PB1_25_turned = settles(
     covers=RESUMES, on="references_executed", interpretations=["S62"],
 )  # fmt: skip
 
-# --- every deviation ends [seed §3.4.1 (1), Fig 25] ------------------------------------------------
+# --- every deviation ends [spec §3.4.1 (1), Fig 25] ------------------------------------------------
 
 PB2_09_left = leads_to(
     "PB2-09-left", "Moving toward sonar 1 ends.",
@@ -56,7 +56,7 @@ PB2_09c_ends_right = leads_to(
     covers=["B2-OBS-09"], on="obstacles_turning", interpretations=("E06", "E08"),
 )  # fmt: skip
 
-# --- waiting returns [seed §3.4.1, Fig 25] ---------------------------------------------------------
+# --- waiting returns [spec §3.4.1, Fig 25] ---------------------------------------------------------
 
 PB2_23_back = recoverable(
     "PB2-23-back", "From everywhere the chart can come back to Waiting.",

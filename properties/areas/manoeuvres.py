@@ -1,4 +1,4 @@
-"""What must be true of the manoeuvres of Board 1, state by state [seed §2.7, Fig 20]."""
+"""What must be true of the manoeuvres of Board 1, state by state [spec §2.7, Fig 20]."""
 
 from rovercheck.properties.areas.references import drives, running
 from rovercheck.properties.forms import Property, always

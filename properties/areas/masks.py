@@ -1,4 +1,4 @@
-"""What must be true of the fault masks of Board 1 [seed §2.3, §2.6, Tables 1 and 3]."""
+"""What must be true of the fault masks of Board 1 [spec §2.3, §2.6, Tables 1 and 3]."""
 
 from rovercheck.properties.document.masks import BOARD_1, WHEELS
 from rovercheck.properties.forms import always, reachable

@@ -1,4 +1,4 @@
-"""What must be true of the stop, the 180° rotation and backward mode of Board 1 [seed §2.2, §2.3, Fig 19]."""
+"""What must be true of the stop, the 180° rotation and backward mode of Board 1 [spec §2.2, §2.3, Fig 19]."""
 
 from rovercheck.properties.areas.references import drives, running
 from rovercheck.properties.document.causes import critical
@@ -43,7 +43,7 @@ normal = motion_supervision.active("Normale_marcia")
 braking = motion_supervision.active("In_frenata_di_emergenza")
 at_rest = motion_supervision.active("Motori_fermi")
 
-# --- release of the emergency stop [seed §2.3] ----------------------------------------------------
+# --- release of the emergency stop [spec §2.3] ----------------------------------------------------
 
 PB1_24a = leaves_only_if(
     "PB1-24a", "The emergency stop is released only by a rover that had come to rest (Motori_fermi).",
@@ -93,7 +93,7 @@ RESUME_BOUND = reachable(
     covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, interpretations=["S62"],
 )  # fmt: skip
 
-# --- 180° rotation [seed Fig 12] -------------------------------------------------------------------
+# --- 180° rotation [spec Fig 12] -------------------------------------------------------------------
 
 PB1_26 = always(
     "PB1-26", "During the 180° rotation the linear reference is zero.",
@@ -171,7 +171,7 @@ PB1_26l = always(
     covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
-# --- backward mode [seed §2.2] ----------------------------------------------------------------------
+# --- backward mode [spec §2.2] ----------------------------------------------------------------------
 
 PB1_27a = always(
     "PB1-27a", "The linear reference is negative only in backward mode.",

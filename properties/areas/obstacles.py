@@ -31,7 +31,7 @@ stopped = named("DEC = 1", B2Decision == 1)
 deviating = named("DEC in {2, 3, 4}", any_of(*(B2Decision == n for n in (2, 3, 4))))
 cut_short = named("emergency or prevDEG_B1", chart.active("InEmergency") | prevDEG_B1)
 
-# --- the stop [seed §3.4, §3.4.1 (2a), Fig 26] ----------------------------------------------------
+# --- the stop [spec §3.4, §3.4.1 (2a), Fig 26] ----------------------------------------------------
 
 STOP = ("B2-OBS-01", "B2-OBS-11", "B2-OBS-12")
 
@@ -113,7 +113,7 @@ PB2_03b_n2 = holds_after(
     covers=("B2-OBS-11", "B2-OBS-12"), on="obstacles_n_free", interpretations=("E10", "E12"),
 )  # fmt: skip
 
-# --- no deviation beside an obstacle at 70 cm [seed §3.4.1 (2b)] -----------------------------------
+# --- no deviation beside an obstacle at 70 cm [spec §3.4.1 (2b)] -----------------------------------
 
 PB2_04 = always(
     "PB2-04", "One step after an obstacle at 70 cm or less the chart does not deviate.",
@@ -139,7 +139,7 @@ PB2_04b = always(
     covers=["B2-OBS-15"], on="obstacles_n_free", interpretations=("E02", "E18", "E27"),
 )  # fmt: skip
 
-# --- the end of a deviation [seed §3.4.1 (1), Fig 25] ----------------------------------------------
+# --- the end of a deviation [spec §3.4.1 (1), Fig 25] ----------------------------------------------
 
 turned = named("turn since entry", wrap(yaw - previous(targetAngle) - 45))
 turned_right = named("turn since entry", wrap(yaw - previous(targetAngle) + 45))
@@ -216,7 +216,7 @@ PB2_10_most = never(
     covers=["B2-OBS-08"], on="obstacles_n_sides", interpretations=["E05"],
 )  # fmt: skip
 
-# --- the output [seed §3.4.1 (1), Figs 24, 25] -----------------------------------------------------
+# --- the output [spec §3.4.1 (1), Figs 24, 25] -----------------------------------------------------
 
 DECISIONS = ("Waiting", "InEmergency", "MoveToS1", "MoveToS2", "MoveToS3")
 

@@ -1,4 +1,4 @@
-"""Obstacles moving between two sonars: the windows of 3 s and the signals they send [seed §3.4.1 (2b)].
+"""Obstacles moving between two sonars: the windows of 3 s and the signals they send [spec §3.4.1 (2b)].
 
 A pair is named by its sonars, first seen first: pair 12 sees an obstacle move from sonar 1 to 2.
 """

@@ -1,7 +1,7 @@
 """What one step of the non-degraded obstacle chart makes of the readings: flags, windows, decisions.
 
 From the readings of the three sonars follow the flags, from these the windows of 3 s, and from the
-windows the decision [seed §3.4.1, Figs 25-27].
+windows the decision [spec §3.4.1, Figs 25-27].
 """
 
 from rovercheck.properties.areas.obstacles_pairs import (

@@ -1,4 +1,4 @@
-"""Every transition of the non-degraded obstacle chart can be taken [seed §3.4.1, Figs 24-27].
+"""Every transition of the non-degraded obstacle chart can be taken [spec §3.4.1, Figs 24-27].
 
 A transition is known by what it alone does: the states before and after it, or the flag that it sets.
 """

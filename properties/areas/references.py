@@ -1,4 +1,4 @@
-"""What must be true of the references and the emergency stop of Board 1 [seed §2.2, §2.3, §2.7, Fig 20]."""
+"""What must be true of the references and the emergency stop of Board 1 [spec §2.2, §2.3, §2.7, Fig 20]."""
 
 from rovercheck.properties.document.causes import critical, degraded
 from rovercheck.properties.forms import always, holds_after, reachable, until
@@ -64,7 +64,7 @@ PB1_19 = until(
     covers=["B1-REF-06"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 
-# --- limits [seed Fig 20] ------------------------------------------------------------------------
+# --- limits [spec Fig 20] ------------------------------------------------------------------------
 
 PB1_20a = always(
     "PB1-20a",
@@ -117,7 +117,7 @@ PB1_20g = always(
     that=once(drives) | _limits(1.0, 1.0, 0.8, 0.4), covers=["B1-REF-04"], on=ON,
 )  # fmt: skip
 
-# --- nominal references [seed §2.2] ----------------------------------------------------------------
+# --- nominal references [spec §2.2] ----------------------------------------------------------------
 
 nominal = named("nominal", drives & ~critical & ~degraded & (cmd == "CMD_NORMAL") & running)
 as_commanded = (v_ref == y_norm) & (omega_ref == x_norm)
@@ -138,7 +138,7 @@ PB1_21c = always(
     covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
-# --- emergency stop [seed §2.3] --------------------------------------------------------------------
+# --- emergency stop [spec §2.3] --------------------------------------------------------------------
 
 PB1_22 = always(
     "PB1-22", "The emergency stop implies zero references.",
@@ -178,7 +178,7 @@ PB1_23f = always(
     covers=["B1-EST-01", "B2-OBS-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 
-# --- outputs of a board that does not actuate [seed §2.1] --------------------------------------------
+# --- outputs of a board that does not actuate [spec §2.1] --------------------------------------------
 
 PB1_34 = always(
     "PB1-34", "References, emergency stop and current action change only in steps in which Board 1 actuates.",

@@ -1,4 +1,4 @@
-"""What must be true of the relay decision of Board 1: who has the actuation [seed §2.5, Fig 16]."""
+"""What must be true of the relay decision of Board 1: who has the actuation [spec §2.5, Fig 16]."""
 
 from rovercheck.properties.forms import (
     always,

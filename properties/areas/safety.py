@@ -1,4 +1,4 @@
-"""What must be true of the safety state of the rover [seed §2.7, Fig 21]."""
+"""What must be true of the safety state of the rover [spec §2.7, Fig 21]."""
 
 from rovercheck.properties.document.causes import critical, degraded
 from rovercheck.properties.forms import always, holds_after, reachable, responds

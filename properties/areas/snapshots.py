@@ -1,4 +1,4 @@
-"""What a snapshot holds: the datum that came last, until another comes [seed §1.1, Fig 13, §1.3.1]."""
+"""What a snapshot holds: the datum that came last, until another comes [spec §1.1, Fig 13, §1.3.1]."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What must be true of the temperature status of Board 1 [seed Table 2]."""
+"""What must be true of the temperature status of Board 1 [spec Table 2]."""
 
 from rovercheck.properties.document.temperature import (
     absent,

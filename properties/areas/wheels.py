@@ -1,4 +1,4 @@
-"""What must be true of the wheel statuses of Board 1 [seed Table 2]; a sentence is one property per wheel."""
+"""What must be true of the wheel statuses of Board 1 [spec Table 2]; a sentence is one property per wheel."""
 
 from collections.abc import Callable, Iterator
 

@@ -18,7 +18,7 @@ critical_range = choose("S15", {
     "PCT": choose("S19", {"AS-WRITTEN": closed, "UNIFORM-CLOSED": closed, "UNIFORM-OPEN": half_open}),
     "TEMP": named("T in [0;15]", (T >= 0) & (T <= 15)),
 })  # fmt: skip
-"""[0 %; 15 %], printed as a range of the temperature [seed Table 2]."""
+"""[0 %; 15 %], printed as a range of the temperature [spec Table 2]."""
 
 per_ms = const(Fraction("0.42") / 1000, "%/ms")
 from_last = b - batt_age * per_ms
@@ -27,7 +27,7 @@ assumed_b = named("assumed_b", choose("S24", {
     "FROM-0.5-INSTANT": b - (batt_age - 500) * per_ms,
     "FROM-LAST-SUSTAINED": from_last,
 }))  # fmt: skip
-"""Without readings the battery is assumed to fall by 0.42 %/s [seed Table 2]."""
+"""Without readings the battery is assumed to fall by 0.42 %/s [spec Table 2]."""
 
 strictly = named("stale_below_15", absent & (assumed_b < 15))
 stale_below_15 = choose("S19", {
@@ -35,4 +35,4 @@ stale_below_15 = choose("S19", {
     "UNIFORM-CLOSED": named("stale_to_15", absent & (assumed_b <= 15)),
     "UNIFORM-OPEN": strictly,
 })  # fmt: skip
-"""0.5 s after the last reading the assumed battery is below 15 % [seed Table 2]."""
+"""0.5 s after the last reading the assumed battery is below 15 % [spec Table 2]."""

@@ -13,9 +13,9 @@ from rovercheck.spec_model.signals.board2_supervisor import (
 )
 
 critical = b1_critical | b2_critical
-"""A critical cause in either board [seed §2.7, Fig 21]."""
+"""A critical cause in either board [spec §2.7, Fig 21]."""
 degraded = b1_degraded | b2_degraded
-"""A degraded cause in either board [seed §2.7, Fig 21]."""
+"""A degraded cause in either board [spec §2.7, Fig 21]."""
 
 emergency = named("emergency", b1_emergency | b2_emergency)
 """While Board 2 drives: a critical fault of a board beyond the link between them [design] (E23)."""
@@ -27,4 +27,4 @@ _silent = choose("S44", {"NOT-CRIT": _link_fault, "STRICT-OK-KEPT": _link_fault,
 _own_view = choose("E22", {"RELAY-AND-FLAG": _silent, "B2-ONLY": _silent, "B1-ONLY": FALSE})
 
 q = named("q", any_of(b1_requests_switch, _own_view))
-"""Board 2 is to move the rover: asked by Board 1, or reception or Board 1 critical [seed §2.5] (E21, E22)."""
+"""Board 2 is to move the rover: asked by Board 1, or reception or Board 1 critical [spec §2.5] (E21, E22)."""

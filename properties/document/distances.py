@@ -1,4 +1,4 @@
-"""What the sonars measure: an obstacle near enough to stop for, a moving one in range [seed §3.4]."""
+"""What the sonars measure: an obstacle near enough to stop for, a moving one in range [spec §3.4]."""
 
 from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, any_of
@@ -12,7 +12,7 @@ NO_ECHO = 301
 def within(limit: int) -> Expr:
     """Some sonar measures an obstacle at ``limit`` cm or less; any of the three counts (E27).
 
-    The rover stops at 70 cm, in the degraded state at 300 cm [seed §3.4].
+    The rover stops at 70 cm, in the degraded state at 300 cm [spec §3.4].
     """
     return named(f"nearest <= {limit}", any_of(*(d <= limit for d in (d1, d2, d3))))
 

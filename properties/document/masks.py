@@ -5,7 +5,7 @@ from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
 
 WHEELS = ("FL", "FR", "RL", "RR")
-"""In the order of bits 3 to 6 [seed Table 1]."""
+"""In the order of bits 3 to 6 [spec Table 1]."""
 
 Bit = tuple[Var, str, str]
 """A status, its level for the critical mask and its level for the degraded one."""
@@ -17,7 +17,7 @@ BOARD_1: tuple[Bit, ...] = (
     *((b1.wheel_status[wheel], "WHEEL_CRITICAL_MOTOR", "WHEEL_DEGRADED_ENCODER") for wheel in WHEELS),
     (b1.b2_sup_status, "SUP_CRITICAL", "SUP_DEGRADED"),
 )
-"""[seed Tables 1 and 3]; each row of Table 3 means the levels of its own component (S51)."""
+"""[spec Tables 1 and 3]; each row of Table 3 means the levels of its own component (S51)."""
 
 BOARD_2: tuple[Bit, ...] = (
     (b2.esp_status, "CRITICAL", "DEGRADED"),

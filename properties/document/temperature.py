@@ -17,7 +17,7 @@ assumed_T = named(
     "assumed_T",
     choose("S09", {"FROM-LAST": T + temp_age * per_ms, "FROM-0.5": T + (temp_age - 500) * per_ms}),
 )
-"""Without readings the temperature is assumed to rise by 1 °C/s [seed Table 2]."""
+"""Without readings the temperature is assumed to rise by 1 °C/s [spec Table 2]."""
 
 
 def _side(interpretation: str, limit: Callable[[Expr], Expr]) -> Expr:
@@ -44,7 +44,7 @@ ok_range = named("T in ]-5;55[", _cold(lambda t: t > -5) & _hot(lambda t: t < 55
 
 
 def _stale_above(limit: int) -> Expr:
-    """0.5 s after the last reading the assumed temperature is above the limit [seed Table 2]."""
+    """0.5 s after the last reading the assumed temperature is above the limit [spec Table 2]."""
     old = choose("S08", {"EQ": temp_age == 500, "GE": temp_age >= 500, "GT": temp_age > 500})
     above = choose("S14", {"GT": assumed_T > limit, "GE": assumed_T >= limit})
     return choose("S07", {"TEMP": old & above, "RATE": False})  # a rise of 1 °C/s is never above 65 °C/s

@@ -15,7 +15,7 @@ from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
 
 BEYOND_THE_LINK = (0, 1, 3, 4, 5, 6)
-"""Bits of Board 1's critical mask that a loss of the link does not set [seed Table 1]."""
+"""Bits of Board 1's critical mask that a loss of the link does not set [spec Table 1]."""
 
 
 def _board_1(id: str, text: str, cause: Expr, covers: Sequence[str]) -> Property:

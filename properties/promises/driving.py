@@ -18,4 +18,4 @@ unheard = named(
     "no frame, or no new heartbeat, for more than 120 ms",
     (rx_age_ms > 120) | (b1.heartbeat_age > 120),
 )
-"""Of Board 2 [seed Table 2, §2.5]."""
+"""Of Board 2 [spec Table 2, §2.5]."""

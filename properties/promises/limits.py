@@ -21,7 +21,7 @@ degraded = named(
         b1.degr_mask_b2 != 0,
     ),
 )
-"""Measured by Board 1 or told by Board 2 [seed Table 2, Fig 21]."""
+"""Measured by Board 1 or told by Board 2 [spec Table 2, Fig 21]."""
 
 uncritical = named("no critical bit", (b1.critical_mask == 0) & (b1.crit_mask_b2 == 0))
 """Of both boards; how bits follow from what is measured is promised apart (``shown``)."""

@@ -11,7 +11,7 @@ from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
 
 asked = named("Board 1 asks to switch", bit(b2.crit_mask_b1, 2) | bit(b2.crit_mask_b1, 7))
-"""Its reception or its view of Board 2's supervisor is critical [seed Table 1]."""
+"""Its reception or its view of Board 2's supervisor is critical [spec Table 1]."""
 
 OPENS = costly(always(
     "P-RELAY-OPENS",

@@ -1,4 +1,4 @@
-"""Board 1 as its firmware sees it [seed §2.2, §2.3, Fig 13, Fig 14]."""
+"""Board 1 as its firmware sees it [spec §2.2, §2.3, Fig 13, Fig 14]."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""Board 2 as its firmware sees it [seed §3.1, Fig 4]."""
+"""Board 2 as its firmware sees it [spec §3.1, Fig 4]."""
 
 from collections.abc import Mapping
 

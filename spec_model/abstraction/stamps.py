@@ -33,7 +33,7 @@ class Updates:
 
 
 class MeanOfTen:
-    """Whether the last ten intervals between updates exceed a mean, in ms [seed Table 2].
+    """Whether the last ten intervals between updates exceed a mean, in ms [spec Table 2].
 
     The power-up begins no interval, and fewer than ten say nothing (S34, S66); the open interval does not
     count (S35) and of several updates between two steps only the last is seen (S36).

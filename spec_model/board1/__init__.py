@@ -1,4 +1,4 @@
-"""The supervisor of Board 1: its charts and function blocks in execution order [seed §2.1, Fig 11].
+"""The supervisor of Board 1: its charts and function blocks in execution order [spec §2.1, Fig 11].
 
 Fault detection, masks, classes of Board 2's faults, relay; then, if Board 1 actuates, safety state,
 limits and references.  A block sees in the same step what the blocks before it produced.
@@ -27,7 +27,7 @@ LINKS = (*monitor_wheels, monitor_heartbeat, monitor_reception)
 
 
 def monitors(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
-    """Fault detection: mutually independent [seed §2.4, Fig 15]."""
+    """Fault detection: mutually independent [spec §2.4, Fig 15]."""
     return (monitor_temperature, monitor_battery, *links)
 
 
@@ -36,7 +36,7 @@ safety_computed = named("Board 1 computes its safety state", ~give_b2_actuation)
 
 
 def references(*charts: Component) -> Enabled:
-    """Calculation of the references by these charts, executed only while Board 1 actuates [seed §2.1].
+    """Calculation of the references by these charts, executed only while Board 1 actuates [spec §2.1].
 
     What is not executed keeps its state and its outputs (S48), and the safety state too (S49).
     """

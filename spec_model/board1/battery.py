@@ -1,4 +1,4 @@
-"""Battery monitor of Board 1: is there charge left, and is anybody still measuring [seed §2.4, Table 2].
+"""Battery monitor of Board 1: is there charge left, and is anybody still measuring [spec §2.4, Table 2].
 
 The document writes "temperature" in the critical row and "voltage" in Table 1; both mean the battery
 percentage (S15, S25).  Between 23 % and 25 % no row is true and the state is kept (S17).

@@ -1,4 +1,4 @@
-"""What the fault masks received from Board 2 mean for the rover: stop it or slow it down [seed Fig 19].
+"""What the fault masks received from Board 2 mean for the rover: stop it or slow it down [spec Fig 19].
 
 Some critical bits of Board 2 only slow the rover down (S55).  The bits (S54): 0 joystick link, 1 IMU,
 2 reception from Board 1, 3 supervisor of Board 1.

@@ -1,4 +1,4 @@
-"""Heartbeat monitor of Board 1: does the supervisor of Board 2 still run [seed §2.4, Table 2].
+"""Heartbeat monitor of Board 1: does the supervisor of Board 2 still run [spec §2.4, Table 2].
 
 The heartbeat travels in the frames, so a dead link also stops it; each row is read by itself (S41).
 """

@@ -1,4 +1,4 @@
-"""updateSafetyLimits: the five limits of the references, scaled by the safety state [seed §2.7, Fig 20].
+"""updateSafetyLimits: the five limits of the references, scaled by the safety state [spec §2.7, Fig 20].
 
 The motion chart calls it when its running state updates the user's command.  Here it is executed before
 the chart in every step, which gives the same references: nothing reads a limit but after that call.

@@ -1,4 +1,4 @@
-"""Construction of the two fault masks of Board 1: one bit per component [seed §2.6, Fig 18, Tables 1 and 3].
+"""Construction of the two fault masks of Board 1: one bit per component [spec §2.6, Fig 18, Tables 1 and 3].
 
 Table 3 prints the names of the temperature levels on almost every row; each row means the levels of
 its own component (S51).  A component has one level, so no bit is in both masks (S52).
@@ -51,5 +51,5 @@ fault_masks = Block(
 own_causes = Block(
     "Own_causes",
     [assign(b1_critical, critical_mask != 0), assign(b1_degraded, degraded_mask != 0)],
-    text="Whether the masks of Board 1 hold any critical or degraded bit [seed Fig 21].",
+    text="Whether the masks of Board 1 hold any critical or degraded bit [spec Fig 21].",
 )

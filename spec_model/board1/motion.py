@@ -1,6 +1,6 @@
 """Motion supervision of Board 1: the references, from the command of Board 2, the user and the safety state.
 
-[seed §2.7, Fig 19; S57, S59-S64].  A running superstate with one state per manoeuvre, among them the
+[spec §2.7, Fig 19; S57, S59-S64].  A running superstate with one state per manoeuvre, among them the
 180° rotation, and the emergency stop procedure, which is left only after the rover has been at rest.
 It is the second region of the reference chart, executed after the toggle of backward mode.
 """

@@ -1,4 +1,4 @@
-"""Reception monitor of Board 1: do valid frames of Board 2 arrive, and often enough [seed §2.4, Table 2]."""
+"""Reception monitor of Board 1: do valid frames of Board 2 arrive, and often enough [spec §2.4, Table 2]."""
 
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to

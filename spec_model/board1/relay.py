@@ -1,4 +1,4 @@
-"""Decides whether Board 2 may move the rover [seed §2.5, Fig 16].
+"""Decides whether Board 2 may move the rover [spec §2.5, Fig 16].
 
 `give_b2_actuation` true: the relay is open and Board 2 moves the rover.  Only reception and the Board 2
 supervisor count (S43, S50), only their critical level (S44), and Board 1 takes the motors back after

@@ -1,4 +1,4 @@
-"""Safety state of the rover from the fault masks of both boards [seed §2.7, Fig 21].
+"""Safety state of the rover from the fault masks of both boards [spec §2.7, Fig 21].
 
 The junctions, arrows and priorities are those of the figure (S56): Rover_Degraded_State tests "not
 degraded" before "critical", so a critical cause that replaces a degraded one is met in

@@ -1,4 +1,4 @@
-"""Temperature monitor of Board 1: how warm is the board, and is anybody still measuring [seed §2.4, Table 2].
+"""Temperature monitor of Board 1: how warm is the board, and is anybody still measuring [spec §2.4, Table 2].
 
 The ranges read the last valid temperature, also when it is old (S11, S12); absence of readings counts
 only through the assumed rise (S13).

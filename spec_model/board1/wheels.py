@@ -1,4 +1,4 @@
-"""Wheel monitors of Board 1: one chart per wheel, all reading the one coherence flag [seed §2.4, Table 2].
+"""Wheel monitors of Board 1: one chart per wheel, all reading the one coherence flag [spec §2.4, Table 2].
 
 `isMotionConsistent` is the value last received from Board 2, also on a dead link (S31).
 """

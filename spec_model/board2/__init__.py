@@ -1,4 +1,4 @@
-"""The supervisor of Board 2: its charts and function blocks in execution order [seed §3.1].
+"""The supervisor of Board 2: its charts and function blocks in execution order [spec §3.1].
 
 Obstacle decision, monitors, masks, classes, authorisation; then, if Board 2 is authorised, safety state,
 obstacle command and references; at last the coherence of IMU and odometry.  A block sees in the same

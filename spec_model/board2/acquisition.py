@@ -1,4 +1,4 @@
-"""How two tasks of Board 2 get their data: the sonar scan [seed §1.3.1, Fig 8] and the joystick read [Fig 9].
+"""How two tasks of Board 2 get their data: the sonar scan [spec §1.3.1, Fig 8] and the joystick read [Fig 9].
 
 Both are checked alone; the supervisor meets arbitrary sonar and joystick data.  The sonar task runs on
 ticks of 1 ms.  Its notification counts only while the task waits for it: one that comes later, with an
@@ -41,7 +41,7 @@ callbacks = Block("SonarCallbacks", [
         for edges, seen, pulse, length in zip(both_edges, flags, captured, width, strict=True)
     ),
     assign(notified, any_of(*both_edges) & (count >= 3)),
-], text="The callbacks of the channels [seed Fig 8], in order")  # fmt: skip
+], text="The callbacks of the channels [spec Fig 8], in order")  # fmt: skip
 
 period = Block("SonarPeriod", [
     assign(phase, modulo(phase + 1, PERIOD)),

@@ -1,4 +1,4 @@
-"""Coherence: does the rover turn as its wheels say [seed §2.2 for the purpose, the rest is design].
+"""Coherence: does the rover turn as its wheels say [spec §2.2 for the purpose, the rest is design].
 
 The rotation measured by the IMU is compared with that of the wheels over short windows of 0.1 s and
 long windows of 3 s, which end at the first IMU stamp that late.  The result is false only in a step

@@ -1,7 +1,7 @@
 """How the obstacle chart knows that the rover has turned by 45 degrees: exactly, or as a free predicate.
 
 The chart reads the heading only in ``gyroTargetDiff`` and in ``angleCalculator``, which stores the
-target of the deviation [seed §3.4.1 (1)].  Checked alone, the chart meets an arbitrary yaw in every
+target of the deviation [spec §3.4.1 (1)].  Checked alone, the chart meets an arbitrary yaw in every
 step.  Then the heading may be replaced by one input, ``turned_45``, without losing or adding a run:
 
 * the test is examined only in MoveToS1 and MoveToS3, and nothing else reads yaw or the target;

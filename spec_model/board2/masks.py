@@ -1,4 +1,4 @@
-"""The two fault masks of Board 2: one bit for each of its four sources [seed §2.2, §3.1].
+"""The two fault masks of Board 2: one bit for each of its four sources [spec §2.2, §3.1].
 
 The document has no table of these bits (E24); only the own sources of Board 2 have one (E23).
 """

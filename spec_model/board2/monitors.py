@@ -1,4 +1,4 @@
-"""Monitors of Board 2: does each of its four sources still deliver, and often enough [seed §3.1].
+"""Monitors of Board 2: does each of its four sources still deliver, and often enough [spec §3.1].
 
 The document gives no limits; these are the design's.  A region returns only after its stamp has come
 often enough for a while (E29), and its critical state does not look at the age.

@@ -1,6 +1,6 @@
 """Obstacle chart of Board 2, non-degraded state: stop at 70 cm, deviate from a moving obstacle.
 
-[seed §3.4.1, Figs 24-27] Two parallel states: Sonars watches the three distances and sends local
+[spec §3.4.1, Figs 24-27] Two parallel states: Sonars watches the three distances and sends local
 events; B2Decisions turns them into the output, a number from 0 to 4.
 """
 
@@ -41,7 +41,7 @@ def obstacles_n(heading: Heading = FREE) -> Chart:
             _decisions(heading),
         ],
         parallel=True,
-        text="Obstacles in the non-degraded state [seed §3.4.1, Figs 24-27]",
+        text="Obstacles in the non-degraded state [spec §3.4.1, Figs 24-27]",
         local_to=heading.local_to,
     )
 
@@ -111,7 +111,7 @@ timers = State("timers", parallel=True, states=[
 
 
 def _decisions(heading: Heading) -> State:
-    """B2Decisions [seed Fig 25]: straight on for the centre sonar (E05), a deviation has no time limit
+    """B2Decisions [spec Fig 25]: straight on for the centre sonar (E05), a deviation has no time limit
     (E08) and ignores new signals (E19, E20), a stop ends by itself (E10)."""
     turn = heading.store_target
     return State("B2Decisions", default="Waiting", states=[

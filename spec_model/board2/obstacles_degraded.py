@@ -1,4 +1,4 @@
-"""Obstacle chart of Board 2, degraded state: stop for any obstacle within 3 m [seed §3.4.2, Fig 28]."""
+"""Obstacle chart of Board 2, degraded state: stop for any obstacle within 3 m [spec §3.4.2, Fig 28]."""
 
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, State, to
@@ -24,7 +24,7 @@ def obstacles_degraded(name: str = "ObstaclesDegraded", decision: Var = B2DecDeg
             to("check_sonars_for_stopping", when=~check300),
         ]),
     ], default="check_sonars_for_stopping",
-       text="Obstacles in the degraded state [seed §3.4.2, Fig 28]")  # fmt: skip
+       text="Obstacles in the degraded state [spec §3.4.2, Fig 28]")  # fmt: skip
 
 
 drawn_d = obstacles_degraded()

@@ -1,4 +1,4 @@
-"""Which obstacle chart decides, and the decision as a command for Board 1 [seed Figs 12, 24, 28]."""
+"""Which obstacle chart decides, and the decision as a command for Board 1 [spec Figs 12, 24, 28]."""
 
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Chart, Component
@@ -30,7 +30,7 @@ def selection(
     translate = Block("TranslateDecision", [
         assign(B2Dec, ite(DEG_B1, B2DecDegraded, B2Decision)),
         assign(command, by_meaning),
-    ], text="Decision 0..6 to a command of Board 1 [seed Fig 12]")  # fmt: skip
+    ], text="Decision 0..6 to a command of Board 1 [spec Fig 12]")  # fmt: skip
     return (select, normal, degraded, translate)
 
 

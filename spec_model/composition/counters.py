@@ -28,7 +28,7 @@ counting = link("line", [(counter, received)], accepted=accepted, counter_change
 count = Block(
     "Count",
     [when(executes, [assign(counter, modulo(counter + 1, MODULUS))])],
-    text="The alive counter rises by 1 at every execution [seed Table 2].",
+    text="The alive counter rises by 1 at every execution [spec Table 2].",
 )
 compare = Block(
     "Compare",

@@ -155,7 +155,7 @@ execute = Block(
         assign(sup2_executes, sup2.due & ~sup2_stopped),
         when(sup2_executes, [assign(counted, True)]),
     ],
-    text="The alive counter rises at every execution [seed Table 2].",
+    text="The alive counter rises at every execution [spec Table 2].",
 )
 built = Block("TX2", [when(tx2.due, [assign(counted, False)])], text="The frame carries the counter.")
 note = Block(

@@ -4,7 +4,7 @@ Step-synchronous model of the composition: both supervisors execute once per tic
 one board writes in a tick is seen by the other one or two ticks later, because the phases of the four
 tasks in between are arbitrary.  Order is preserved.  A frame that is lost or corrupted (checksum,
 length) is never seen: it leaves the payload and the time of the last valid data as they were
-[seed §1.2, §2.4].
+[spec §1.2, §2.4].
 
 The alive counter is not kept as a number.  The receiver only asks whether the counter of an accepted
 frame differs from the one it remembers, which is so iff the sender's supervisor executed between the

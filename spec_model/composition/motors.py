@@ -1,6 +1,6 @@
 """Who moves the rover: the relay, the motor commands of both boards, and the motor driver.
 
-The relay connects the motor line and the stop pin of one board to the driver [seed §2.5, Fig 17].  Its
+The relay connects the motor line and the stop pin of one board to the driver [spec §2.5, Fig 17].  Its
 coil holds Board 1 while that board has power and keeps ``give_b2_actuation`` false; without power the
 line is on Board 2 (S47).  The driver keeps the last command, and stops the motors when none came for
 300 ms.  Speeds are only told zero or not.  Under B2-ONLY both boards may command it in one step (E22).

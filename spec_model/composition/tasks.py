@@ -16,7 +16,7 @@ from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
 from rovercheck.spec_model.lang.words import modulo, named
 
 PERIOD = 20
-"""Milliseconds between two executions of a supervisor or of a transmit task [seed §1.2]."""
+"""Milliseconds between two executions of a supervisor or of a transmit task [spec §1.2]."""
 
 MILLISECOND = 1
 
@@ -81,7 +81,7 @@ def line(name: str, payload: Sequence[tuple[Var, Var]], transmit: Expr, accepted
             when(busy & intact, arrived),
             assign(busy, False),
         ],
-        text="A frame that arrives whole replaces the payload [seed §2.4].",
+        text="A frame that arrives whole replaces the payload [spec §2.4].",
     )
     send = Block(
         f"{name}.send",
@@ -94,6 +94,6 @@ def line(name: str, payload: Sequence[tuple[Var, Var]], transmit: Expr, accepted
                 ],
             )
         ],
-        text="The transmit task sends what the snapshots hold [seed §1.2].",
+        text="The transmit task sends what the snapshots hold [spec §1.2].",
     )
     return FineLine(receive, send, intact, busy)

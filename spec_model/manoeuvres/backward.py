@@ -1,4 +1,4 @@
-"""Backward_mode_toggle: four presses of the joystick buttons switch backward mode on and off [seed Fig 19].
+"""Backward_mode_toggle: four presses of the joystick buttons switch backward mode on and off [spec Fig 19].
 
 The combination is btn1, btn1, btn2, btn2 with the stick at rest, at most 1 s from press to press (S59).
 """

@@ -1,4 +1,4 @@
-"""Signals of the Board 1 supervisor, under the document's own names [seed §2.2, §2.3, Table 2, Fig 19].
+"""Signals of the Board 1 supervisor, under the document's own names [spec §2.2, §2.3, Table 2, Fig 19].
 
 Where the document indexes a signal by wheel, the wheel's letters follow the name: FL, FR, RL, RR.
 """
@@ -21,13 +21,13 @@ from rovercheck.spec_model.signals.common import (
 from rovercheck.spec_model.signals.rotation import ERROR, ERROR_CLASSES, HEADING, TARGET
 
 WHEELS = ("FL", "FR", "RL", "RR")
-"""Front left, front right, rear left, rear right: bits 3 to 6 of the masks [seed Table 1]."""
+"""Front left, front right, rear left, rear right: bits 3 to 6 of the masks [spec Table 1]."""
 
 TEMP_STATUS = enumeration("TempStatus", ["TEMP_HEALTH_OK", "TEMP_HEALTH_DEGRADED", "TEMP_HEALTH_CRITICAL"])
 BATT_STATUS = enumeration("BattStatus", ["BATT_HEALTH_OK", "BATT_HEALTH_DEGRADED", "BATT_HEALTH_CRITICAL"])
 WHEEL_STATUS = enumeration("WheelStatus", ["WHEEL_OK", "WHEEL_DEGRADED_ENCODER", "WHEEL_CRITICAL_MOTOR"])
 
-# --- Board_Health [seed Fig 13] ------------------------------------------------------------------
+# --- Board_Health [spec Fig 13] ------------------------------------------------------------------
 
 DEGREES_C = chosen([-16, -15, -14, -6, -5, -4, 0, 25, 54, 55, 57, 59, 60, 64, 65, 66], "°C")
 """One value on each side of every limit, and 0 °C, the content of the snapshot at power-up."""
@@ -46,12 +46,12 @@ battery_pct = var("battery_pct", PERCENT, 0, "last valid battery level; 0 at pow
 batt_age = var("batt_age", fixed(0, 155_280, 20, "ms"), 0, "now_ms - batt_last_valid_ms")
 degraded_row_counts = flag("degraded_row_counts", "free: the degraded row counts before the critical one")
 
-# --- Encoder [seed Fig 14] -----------------------------------------------------------------------
+# --- Encoder [spec Fig 14] -----------------------------------------------------------------------
 
 has_no_feedback = {w: flag(f"hasNoFeedback_{w}", "0 rpm read under a speed command (S32)") for w in WHEELS}
 wheel_speed_rpm = {w: var(f"wheel_speed_rpm_{w}", WHEEL_RPM, 0, "measured wheel speed") for w in WHEELS}
 
-# --- Board2_Data: the link, the heartbeat and the last accepted payload [seed §2.2] ---------------
+# --- Board2_Data: the link, the heartbeat and the last accepted payload [spec §2.2] ---------------
 
 rx_update = flag("rx_update", "a frame of Board 2 was accepted since the last step")
 rx_age = var("rx_age", LINK_AGE, 0, "now_ms - Board2_Data.data_last_valid_ms")
@@ -73,7 +73,7 @@ current_yaw = var("current_yaw", HEADING, 0, "heading, clockwise positive, as la
 btn1 = flag("btn1", "joystick button 1 is pressed, as last received")
 btn2 = flag("btn2", "joystick button 2 is pressed, as last received")
 
-# --- fault detection and masks [seed §2.4, §2.6] --------------------------------------------------
+# --- fault detection and masks [spec §2.4, §2.6] --------------------------------------------------
 
 temp_status = var("temp_status", TEMP_STATUS)
 batt_status = var("batt_status", BATT_STATUS)
@@ -88,7 +88,7 @@ b1_degraded = flag("b1_degraded", "degraded_mask != 0")
 b2_critical = flag("b2_critical", "stop_required: a fault of Board 2 that stops the rover")
 b2_degraded = flag("b2_degraded", "degraded_required: a fault of Board 2 that slows the rover")
 
-# --- relay, safety state, limits, references [seed §2.3, §2.5, §2.7] -------------------------------
+# --- relay, safety state, limits, references [spec §2.3, §2.5, §2.7] -------------------------------
 
 give_b2_actuation = flag("give_b2_actuation", "relay open: Board 2 moves the rover")
 rover_safety_state = var("rover_safety_state", SAFETY_STATUS, doc="safety_status of the document")

@@ -1,4 +1,4 @@
-"""Signals of the Board 2 supervisor beside its obstacle and motion charts [seed §3.1].
+"""Signals of the Board 2 supervisor beside its obstacle and motion charts [spec §3.1].
 
 Both boards run in one composed system, so a name that Board 1 uses too begins with ``B2.`` here.
 Where the document indexes a signal by wheel, the wheel's letters follow the name: FL, FR, RL, RR.
@@ -105,7 +105,7 @@ sup_age, ble_age, imu_age, rx_age = (source.age for source in SOURCES)
 _, ble_age_ms, imu_age_ms, rx_age_ms = (source.age for source in SOURCES_MS)
 deg_sup, deg_ble, deg_imu, deg_rx = (source.deg for source in SOURCES)
 
-# --- Board1_Data: the last accepted payload [seed Fig 4] -------------------------------------------
+# --- Board1_Data: the last accepted payload [spec Fig 4] -------------------------------------------
 
 crit_mask_b1 = var("B2.crit_mask_b1", FAULT_MASK, 0, "critical mask of Board 1, as last received")
 degr_mask_b1 = var("B2.degr_mask_b1", FAULT_MASK, 0, "degraded mask of Board 1, as last received")

@@ -15,19 +15,19 @@ COMMAND = enumeration(
         "CMD_ESTOP",
     ],
 )
-"""The command of a supervisor, 0 to 7 [seed §2.2, Fig 12]."""
+"""The command of a supervisor, 0 to 7 [spec §2.2, Fig 12]."""
 
 SAFETY_STATUS = enumeration("SafetyStatus", ["SAFETY_OK", "SAFETY_DEGRADED", "SAFETY_CRITICAL"])
-"""The safety state from which the limits follow [seed §2.7, Fig 20]."""
+"""The safety state from which the limits follow [spec §2.7, Fig 20]."""
 
 RX_STATUS = enumeration("RxStatus", ["RX_OK", "RX_DEGRADED", "RX_CRITICAL"])
-"""State of the reception from the other board [seed §2.4, Table 2]; each board has its own."""
+"""State of the reception from the other board [spec §2.4, Table 2]; each board has its own."""
 
 SUP_STATUS = enumeration("SupStatus", ["SUP_OK", "SUP_DEGRADED", "SUP_CRITICAL"])
-"""State of the supervisor of the other board, by its heartbeat [seed §2.4, Table 2]."""
+"""State of the supervisor of the other board, by its heartbeat [spec §2.4, Table 2]."""
 
 FAULT_MASK = integer(0, 255)
-"""A fault mask of 8 bits, bit 0 worth 1 [seed §2.3, Table 1]."""
+"""A fault mask of 8 bits, bit 0 worth 1 [spec §2.3, Table 1]."""
 
 B2_FAULT_MASK = integer(0, 15)
 """A fault mask of Board 2, of whose 8 bits the lowest four are used (S54, E24)."""

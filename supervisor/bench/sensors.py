@@ -22,7 +22,7 @@ DEAD_ZONE = 0.1
 
 @dataclass
 class Sonars:
-    """Three HC-SR04, triggered together [seed §1.3.1]."""
+    """Three HC-SR04, triggered together [spec §1.3.1]."""
 
     dist_cm: Distances = (0.0, 0.0, 0.0)
     last_valid_ms: int = 0

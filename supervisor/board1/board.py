@@ -1,4 +1,4 @@
-"""The supervisor of Board 1: its blocks in their order, once every 20 ms [seed §2.1, Fig 11]."""
+"""The supervisor of Board 1: its blocks in their order, once every 20 ms [spec §2.1, Fig 11]."""
 
 from rovercheck.supervisor.backward import BackwardToggle
 from rovercheck.supervisor.board1.classify import Requirements, classify

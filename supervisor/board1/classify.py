@@ -1,4 +1,4 @@
-"""What the faults that Board 2 reports ask of Board 1: to stop, or to go on with care [seed Fig 19]."""
+"""What the faults that Board 2 reports ask of Board 1: to stop, or to go on with care [spec Fig 19]."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""How Board 1 steers around an obstacle, and how it turns by 180° [seed §2.7, Fig 20]."""
+"""How Board 1 steers around an obstacle, and how it turns by 180° [spec §2.7, Fig 20]."""
 
 from rovercheck.supervisor.board1.limits import Limits
 from rovercheck.supervisor.board1.states import Motion

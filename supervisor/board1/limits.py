@@ -1,4 +1,4 @@
-"""How fast Board 1 may drive in each safety state [seed §2.7, Fig 20]."""
+"""How fast Board 1 may drive in each safety state [spec §2.7, Fig 20]."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The fault masks of Board 1: one bit per component [seed §2.6, Fig 18, Tables 1 and 3]."""
+"""The fault masks of Board 1: one bit per component [spec §2.6, Fig 18, Tables 1 and 3]."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ class Masks:
 
 
 def fault_masks(statuses: Statuses) -> Masks:
-    """Both masks; bit 0 is the temperature, bit 7 the supervisor of Board 2 [seed Table 1]."""
+    """Both masks; bit 0 is the temperature, bit 7 the supervisor of Board 2 [spec Table 1]."""
     components = (
         statuses.temp_status,
         statuses.batt_status,

@@ -1,4 +1,4 @@
-"""The monitors of Board 1: how well sensors, wheels and Board 2 work [seed §2.4, Fig 15, Table 2].
+"""The monitors of Board 1: how well sensors, wheels and Board 2 work [spec §2.4, Fig 15, Table 2].
 
 Each tests its rows in order of severity in every step, the first one included; the first true row wins.
 """

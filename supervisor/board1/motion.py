@@ -1,6 +1,6 @@
 """The references of Board 1: what becomes of the user's wish under the command and the safety state.
 
-[seed §2.7, Figs 19 and 20]
+[spec §2.7, Figs 19 and 20]
 """
 
 from dataclasses import dataclass, field

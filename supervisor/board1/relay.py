@@ -1,4 +1,4 @@
-"""Who drives: Board 1, or Board 2 while Board 1 hears nothing sound from it [seed §2.5, Fig 16]."""
+"""Who drives: Board 1, or Board 2 while Board 1 hears nothing sound from it [spec §2.5, Fig 16]."""
 
 from dataclasses import dataclass, field
 

@@ -1,4 +1,4 @@
-"""The safety state of Board 1, from the faults of both boards [seed §2.7, Fig 21]."""
+"""The safety state of Board 1, from the faults of both boards [spec §2.7, Fig 21]."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What the supervisor of Board 1 reads and writes in one step [seed §2.2, §2.3]."""
+"""What the supervisor of Board 1 reads and writes in one step [spec §2.2, §2.3]."""
 
 from dataclasses import dataclass, field
 
@@ -27,12 +27,12 @@ class Board1Inputs:
     batt_last_valid_ms: int = 0
     wheel_speed_rpm: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     has_no_feedback: tuple[bool, bool, bool, bool] = (False, False, False, False)
-    """True where an encoder reads 0 rpm under a valid speed command [seed Fig 14, S32]."""
+    """True where an encoder reads 0 rpm under a valid speed command [spec Fig 14, S32]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Statuses:
-    """How well each component of Board 1 works [seed Table 2]."""
+    """How well each component of Board 1 works [spec Table 2]."""
 
     temp_status: Level = Level.OK
     batt_status: Level = Level.OK

@@ -11,7 +11,7 @@ from rovercheck.supervisor.board2.validity import Validity
 
 
 class Board2:
-    """The executable supervisor of Board 2 [seed §3.1]."""
+    """The executable supervisor of Board 2 [spec §3.1]."""
 
     def __init__(self) -> None:
         self.reset()

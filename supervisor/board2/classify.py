@@ -5,7 +5,7 @@ from dataclasses import dataclass
 JOYSTICK, IMU = 1 << 0, 1 << 1
 """Bits of Board 2 without which it cannot drive."""
 B1_RECEPTION, B1_FINDS_B2_SUPERVISOR = 1 << 2, 1 << 7
-"""Bits of Board 1 [seed Table 1] that hand the motors over, and endanger nothing by themselves."""
+"""Bits of Board 1 [spec Table 1] that hand the motors over, and endanger nothing by themselves."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -103,7 +103,7 @@ class _Comparison:
 class Coherence:
     """``isMotionConsistent``: false only in a step that closes a window whose rotations disagree.
 
-    A fast window lasts 100 ms and counts only while the IMU turns; a long one lasts 3 s [seed §2.2 for
+    A fast window lasts 100 ms and counts only while the IMU turns; a long one lasts 3 s [spec §2.2 for
     the purpose].  A measurement that is infinite or no number spoils its windows: those do not agree.
     """
 

@@ -7,7 +7,7 @@ from rovercheck.supervisor.types import SupervisorCommand
 
 
 class Decision(IntEnum):
-    """``B2Dec``: 0 to 4 with Board 1 healthy, 5 and 6 in the degraded state [seed Figs 24, 28]."""
+    """``B2Dec``: 0 to 4 with Board 1 healthy, 5 and 6 in the degraded state [spec Figs 24, 28]."""
 
     READY = 0
     STOP = 1

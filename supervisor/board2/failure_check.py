@@ -14,7 +14,7 @@ class _State(Enum):
 
 @dataclass
 class FailureCheck:
-    """The check for a failure of Board 1; the relay of Board 1 decides by itself [seed §2.5, Fig 16]."""
+    """The check for a failure of Board 1; the relay of Board 1 decides by itself [spec §2.5, Fig 16]."""
 
     autorized_to_send_command: bool = False
     _state: _State | None = None

@@ -21,7 +21,7 @@ class Faults:
 
 @dataclass
 class FaultFinder:
-    """The blocks from the monitors to the classification [seed §3.1]."""
+    """The blocks from the monitors to the classification [spec §3.1]."""
 
     _monitors: Monitors = field(default_factory=Monitors)
 

@@ -1,4 +1,4 @@
-"""The fault masks of Board 2: one bit for each component [seed §2.6]."""
+"""The fault masks of Board 2: one bit for each component [spec §2.6]."""
 
 from dataclasses import dataclass
 

@@ -17,7 +17,7 @@ from rovercheck.supervisor.types import Level
 class Slow2:
     """Whether the last gaps between stamps, at most ten, are longer than ``mean_ms`` on average.
 
-    Unlike on Board 1 [seed Table 2], fewer than ten gaps count, and so does the one from power-up.
+    Unlike on Board 1 [spec Table 2], fewer than ten gaps count, and so does the one from power-up.
     """
 
     mean_ms: int

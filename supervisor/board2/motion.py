@@ -12,7 +12,7 @@ from rovercheck.supervisor.timing import After, Duration, steps
 from rovercheck.supervisor.types import Level, SafetyState, SupervisorCommand
 
 SPEED_LIMIT = 0.5
-"""V_MAX and OMEGA_MAX of a degraded rover; both are 0 in the critical state [seed Fig 20]."""
+"""V_MAX and OMEGA_MAX of a degraded rover; both are 0 in the critical state [spec Fig 20]."""
 TURNED_DEG = 7.5
 """A half turn is over when less than this is left."""
 COASTING_DEG = 45

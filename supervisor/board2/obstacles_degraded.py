@@ -8,7 +8,7 @@ from rovercheck.supervisor.board2.distances import STOP_DEGRADED_CM, Distances, 
 
 @dataclass
 class DegradedObstacles:
-    """The obstacle chart of the degraded state [seed §3.4.2, Fig 28].
+    """The obstacle chart of the degraded state [spec §3.4.2, Fig 28].
 
     In its first execution it lets the rover move whatever the distances: no transition is tested yet.
     """

@@ -21,7 +21,7 @@ class Selected:
 @dataclass
 class Selection:
     """Both obstacle charts run in every step (E32); the degraded one counts if Board 1 is not healthy or
-    Board 2 drives (E09) [seed Figs 12, 24, 28]."""
+    Board 2 drives (E09) [spec Figs 12, 24, 28]."""
 
     _obstacles: Obstacles = field(default_factory=Obstacles)
     _degraded: DegradedObstacles = field(default_factory=DegradedObstacles)

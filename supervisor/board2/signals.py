@@ -1,6 +1,6 @@
 """What the supervisor of Board 2 reads and produces in one step.
 
-The lists follow the interface of Board 1 [seed §2.2, §2.3], for the sources that Board 2 has.
+The lists follow the interface of Board 1 [spec §2.2, §2.3], for the sources that Board 2 has.
 """
 
 from dataclasses import dataclass, field
@@ -27,7 +27,7 @@ class Board2Inputs:
 
     now_ms: int = 0
     last_valid_b1_ms: int = 0
-    """When a step last saw the alive counter of Board 1 change [seed Table 2]."""
+    """When a step last saw the alive counter of Board 1 change [spec Table 2]."""
     b1_data_last_valid_ms: int = 0
     """When the last frame was accepted."""
     payload: FromBoard1 = field(default_factory=FromBoard1)
@@ -56,7 +56,7 @@ class Board2Outputs:
     b2_dec: Decision = Decision.READY
     """Obstacle decision: 0..4 of the chart for a healthy rover, 5 and 6 of that for a degraded one."""
     command: SupervisorCommand = SupervisorCommand.CMD_NORMAL
-    """The decision in the words of Board 1 [seed Fig 12]."""
+    """The decision in the words of Board 1 [spec Fig 12]."""
     critical_mask: int = 0
     """Bit 0 joystick link, 1 IMU, 2 reception from Board 1, 3 supervisor of Board 1."""
     degraded_mask: int = 0

@@ -1,4 +1,4 @@
-"""The heartbeat of a supervisor [seed Table 2]: the counter that it sends, and how the other compares it."""
+"""The heartbeat of a supervisor [spec Table 2]: the counter that it sends, and how the other compares it."""
 
 from dataclasses import dataclass
 

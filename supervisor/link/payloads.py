@@ -1,6 +1,6 @@
 """What each board tells the other every 20 ms; the initial values are those before the first accepted frame.
 
-[seed §1.2, §2.2, Fig 3, Fig 4]
+[spec §1.2, §2.2, Fig 3, Fig 4]
 """
 
 from dataclasses import dataclass
@@ -15,10 +15,10 @@ class FromBoard1:
     wheel_speed_rpm: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     """Measured speeds: front left, front right, rear left, rear right."""
     critical_mask: int = 0
-    """Critical components of Board 1, bits 0 to 7 [seed Table 1]."""
+    """Critical components of Board 1, bits 0 to 7 [spec Table 1]."""
     degraded_mask: int = 0
     alive_counter: int = 0
-    """Executions of the supervisor of Board 1 since power-up, modulo 2**32 [seed Table 2]."""
+    """Executions of the supervisor of Board 1 since power-up, modulo 2**32 [spec Table 2]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,4 +40,4 @@ class FromBoard2:
     btn1: bool = False
     btn2: bool = False
     alive_counter: int = 0
-    """Executions of the supervisor of Board 2 since power-up, modulo 2**32 [seed Table 2]."""
+    """Executions of the supervisor of Board 2 since power-up, modulo 2**32 [spec Table 2]."""

@@ -9,7 +9,7 @@ from rovercheck.supervisor.link.wire import Direction, P
 
 @dataclass(frozen=True)
 class RxSnapshot(Generic[P]):
-    """What the receive task publishes [seed §2.2, §2.4]."""
+    """What the receive task publishes [spec §2.2, §2.4]."""
 
     payload: P
     """That of the last accepted frame."""

@@ -1,7 +1,7 @@
 """How each payload is laid out in bytes: the document names the fields, the widths and the order are ours.
 
 Everything is most significant byte first, as the document has it for the sync word.  Measurements are single
-precision [seed Fig 10, Fig 13, Fig 14], stamps and counters have 32 bits [seed Fig 10], the 8-bit masks
+precision [spec Fig 10, Fig 13, Fig 14], stamps and counters have 32 bits [spec Fig 10], the 8-bit masks
 travel in 32 bits, a command and a truth value in 8.  A payload has 28 bytes then and a frame 42 in either
 direction: 0.91 ms at 460 800 baud.
 """

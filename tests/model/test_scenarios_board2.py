@@ -99,7 +99,7 @@ def test_E02_the_detection_flags_are_frozen_at_70() -> None:
     assert set(flags) == {(0, 0, 0)}
 
 
-# --- the heading [seed §3.4.1 (1)] ----------------------------------------------------------------
+# --- the heading [spec §3.4.1 (1)] ----------------------------------------------------------------
 
 five_degrees = fixed({}).system(in_order("heading_in_5_degrees", obstacles_n(measured(*headings(5)))))
 SEEN_LEFT: Block = (10, dict(d1=200, d2=200))
@@ -131,7 +131,7 @@ def test_E07_the_initial_direction_is_that_of_the_decision() -> None:
     assert run(five_degrees, blocks, "B2Decision", "targetAngle")[-1] == (2, 335)
 
 
-# --- selection and command [seed Figs 12, 24, 28] --------------------------------------------------
+# --- selection and command [spec Figs 12, 24, 28] --------------------------------------------------
 
 NORMAL, GO_LEFT, GO_RIGHT, ESTOP = 0, 2, 3, 7
 

@@ -1,4 +1,4 @@
-"""The heartbeat is compared for change alone, in the steps of the receiver [seed Table 2, S40]."""
+"""The heartbeat is compared for change alone, in the steps of the receiver [spec Table 2, S40]."""
 
 import pytest
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""The receive task finds frames again after anything that can happen to bytes on a line [seed §2.4]."""
+"""The receive task finds frames again after anything that can happen to bytes on a line [spec §2.4]."""
 
 from typing import Any
 
@@ -184,7 +184,7 @@ def test_a_frame_that_contains_the_sync_word_never_arrives_and_the_next_does(dir
 
 
 def test_three_hours_after_power_up_the_time_stamp_silences_the_link_for_a_quarter_of_a_second():
-    """A weakness of the protocol: reception is critical after 120 ms [seed Table 2]."""
+    """A weakness of the protocol: reception is critical after 120 ms [spec Table 2]."""
     transmitter, receiver, gaps = Transmitter(B2_TO_B1), Receiver(B2_TO_B1), []
     for now in range(0xAA5500, 0xAA5800, 20):
         snapshot = receiver.receive(transmitter.frame(FromBoard2(), now), now)

@@ -16,7 +16,7 @@ def _sonar_fields() -> tuple[SonarField, SonarField, SonarField]:
 
 @dataclass
 class Obstacles:
-    """The obstacle chart of the non-degraded state [seed §3.4.1, Figs 24-27].
+    """The obstacle chart of the non-degraded state [spec §3.4.1, Figs 24-27].
 
     Its first execution needs no case of its own: with all flags 0 no transition is valid, and entry actions
     take over the distances as the during actions do.

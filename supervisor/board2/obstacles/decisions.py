@@ -23,7 +23,7 @@ FROM_WAITING = MappingProxyType(
 
 
 def target_angle(yaw: float, decision: Decision) -> float:
-    """The heading after the turn, in degrees clockwise: sonar 1 is on the left (E07) [seed §3.4.1]."""
+    """The heading after the turn, in degrees clockwise: sonar 1 is on the left (E07) [spec §3.4.1]."""
     if decision is Decision.TOWARD_S1:
         left = yaw - TURN_DEG
         return left + 360 if left < 0 else left
@@ -45,7 +45,7 @@ def has_turned(yaw: float, target: float, decision: Decision) -> bool:
 
 @dataclass
 class Decisions:
-    """``B2Decisions`` [seed Fig 25].  Every state sets its own output: the decision is the state.
+    """``B2Decisions`` [spec Fig 25].  Every state sets its own output: the decision is the state.
 
     A move is not changed by another moving obstacle (E19); only an emergency, its end or a degraded
     Board 1 end it.

@@ -5,7 +5,7 @@ from enum import Enum, auto
 
 
 class Event(Enum):
-    """What one part of the chart tells another [seed Figs 25-27]."""
+    """What one part of the chart tells another [spec Figs 25-27]."""
 
     EMERGENCY = auto()
     SAFE = auto()

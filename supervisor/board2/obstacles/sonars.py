@@ -8,7 +8,7 @@ from rovercheck.supervisor.board2.obstacles.events import Event, Send
 
 @dataclass
 class NearObstacle:
-    """``distance_70``: tells of an emergency, and when it is over [seed Fig 26].
+    """``distance_70``: tells of an emergency, and when it is over [spec Fig 26].
 
     Its transitions see the ``stop`` of the step before, so that the events come one step after the distances.
     """
@@ -29,7 +29,7 @@ class NearObstacle:
 
 @dataclass
 class SonarField:
-    """``Waiting_Si``: an obstacle enters and leaves the field of one sonar (E17) [seed Fig 27].
+    """``Waiting_Si``: an obstacle enters and leaves the field of one sonar (E17) [spec Fig 27].
 
     A near obstacle before any sonar freezes what is remembered (E18, E27).
     """
