@@ -163,3 +163,13 @@ class Board:
         """The concrete inputs of a run of any system that has this board's environment, tick by tick."""
         writer = self.writer()
         return (writer.step(at) for at in model)
+
+
+def in_steps_of(board: Board, system: System, at: Mapping[str, int]) -> dict[str, int]:
+    """The state with each number in the resolution that it has on the board: systems differ in grids."""
+    found = dict(at)
+    for name, there in {**system.written, **system.inputs}.items():
+        here = board.system.inputs.get(name)
+        if here is not None and name in at and isinstance(here.sort, Num) and isinstance(there.sort, Num):
+            found |= computed({name: whole(at[name] * there.sort.resolution / here.sort.resolution)})
+    return found

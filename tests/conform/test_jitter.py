@@ -5,14 +5,13 @@ from collections.abc import Mapping
 import pytest
 
 from rovercheck.checker.adapters.python_calls import Instance
-from rovercheck.checker.commands.compare.record import in_steps_of
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.compare.beside import differs, rerun
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.abstraction import Board, boards
-from rovercheck.spec_model.abstraction.board import units
+from rovercheck.spec_model.abstraction.board import in_steps_of, units
 from rovercheck.spec_model.rover import systems
 from tests.conform.recorded import FIRMWARE
 

@@ -17,8 +17,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.abstraction import Board, boards
-from rovercheck.spec_model.abstraction.board import computed, whole
-from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.abstraction.board import in_steps_of
 from rovercheck.spec_model.lang.system import TICK_MS, System
 from rovercheck.spec_model.rover import systems
 
@@ -44,16 +43,6 @@ def runs(found: Iterable[Found], known: Mapping[str, System]) -> dict[str, list[
                 if all(one.stimulus != other.stimulus for other in kept_runs[name]):
                     kept_runs[name].append(one)
     return kept_runs
-
-
-def in_steps_of(board: Board, system: System, at: Mapping[str, int]) -> dict[str, int]:
-    """The state with each number in the resolution that it has on the board: systems differ in grids."""
-    found = dict(at)
-    for name, there in {**system.written, **system.inputs}.items():
-        here = board.system.inputs.get(name)
-        if here is not None and name in at and isinstance(here.sort, Num) and isinstance(there.sort, Num):
-            found |= computed({name: whole(at[name] * there.sort.resolution / here.sort.resolution)})
-    return found
 
 
 def counterexamples() -> Iterator[Found]:

@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from rovercheck.checker.commands.compare.record import in_steps_of
 from rovercheck.checker.compare.beside import SteppedCharts
 from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
 from rovercheck.checker.results.trace import Tick, Trace
 from rovercheck.checker.testgen.formats.pytest_files import OURS
 from rovercheck.checker.testgen.scripts import CLOCK
 from rovercheck.spec_model.abstraction import Board, BoardSignal, boards
+from rovercheck.spec_model.abstraction.board import in_steps_of
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.errors import ModelError
