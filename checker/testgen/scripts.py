@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -12,8 +13,6 @@ Moment = Mapping[str, Value]
 
 Script = tuple[Moment, ...]
 """The inputs of a test, step by step from power-up."""
-
-CLOCK = "now_ms"
 
 
 @dataclass(frozen=True)
@@ -32,7 +31,7 @@ def steps(board: Board, script: Sequence[Moment]) -> tuple[dict[str, Value], ...
     for number, moment in enumerate(script, start=1):
         now = number * TICK_MS
         stamps |= {name: now for name in stamps if moment.get(name)}
-        stamps[CLOCK] = now
+        stamps[NOW] = now
         found.append({s.name: stamps[s.name] if s.stamp else moment[s.name] for s in board.inputs})
     return tuple(found)
 
@@ -49,7 +48,7 @@ def script(board: Board, given: Sequence[Mapping[str, Value]]) -> Script:
 def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Moment]:
     before: Mapping[str, Value] = board.at_power_up()
     for number, inputs in enumerate(given, start=1):
-        now = inputs[CLOCK]
+        now = inputs[NOW]
         if now != number * TICK_MS:
             raise ModelError(f"step {number} is at {now} ms; in a test step k is at {TICK_MS} k ms.")
         moment = dict(inputs)
@@ -58,7 +57,7 @@ def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Mome
                 moment[signal.name] = inputs[signal.name] == now
                 if not moment[signal.name] and inputs[signal.name] != before[signal.name]:
                     raise ModelError(f"step {number}: {signal.name} is neither {now} ms nor as before.")
-        del moment[CLOCK]
+        del moment[NOW]
         yield moment
         before = inputs
 
@@ -91,4 +90,4 @@ def unfolded(board: Board, rows: Sequence[tuple[int, Mapping[str, Value]]]) -> S
 
 
 def _at_rest(board: Board) -> Moment:
-    return {s.name: False if s.stamp else s.initial for s in board.inputs if s.name != CLOCK}
+    return {s.name: False if s.stamp else s.initial for s in board.inputs if s.name != NOW}

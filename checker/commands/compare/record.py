@@ -17,7 +17,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.abstraction import Board, boards
-from rovercheck.spec_model.abstraction.board import computed, whole
+from rovercheck.spec_model.abstraction.signals import computed, whole
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.system import TICK_MS, System
 from rovercheck.spec_model.rover import systems

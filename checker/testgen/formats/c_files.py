@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
-from rovercheck.checker.testgen.scripts import CLOCK
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -101,7 +101,7 @@ def _apply(board: Board) -> str:
     """C that makes the inputs of a step from the table."""
     lines = []
     for number, signal in enumerate(board.inputs):
-        if signal.name == CLOCK:
+        if signal.name == NOW:
             lines.append(f"    in->{signal.name} = now;")
         elif signal.stamp:
             lines.append(f"    if (at[{number}] != 0.0) in->{signal.name} = now;")

@@ -5,12 +5,6 @@ from collections.abc import Mapping, Sequence
 from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board
 
-OURS = {
-    "board1": "python:rovercheck.supervisor.board1:Board1",
-    "board2": "python:rovercheck.supervisor.board2.board:Board2",
-}
-"""The implementation that is run unless another is named."""
-
 HEAD = '''"""Covering tests of {board}, made by `rovercheck generate-tests`.
 
 Run them against an implementation with `pytest {file} --impl KIND:WHAT`, by default ours.
@@ -66,7 +60,7 @@ def pytest_addoption(parser):
 def pytest_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:
     """The file of tests, and the ``conftest.py`` with its option."""
     name = f"test_cover_{board.name}.py"
-    head = HEAD.format(board=board.name, file=name, ours=OURS[board.name])
+    head = HEAD.format(board=board.name, file=name, ours=board.supervisor)
     return {name: head + "".join(_test(board, t) for t in tests) + TAIL, "conftest.py": CONFTEST}
 
 
