@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from rovercheck.checker.results.board_steps import Cells, in_rows
 from rovercheck.spec_model.abstraction import Board, Value
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.errors import ModelError
@@ -65,18 +66,11 @@ def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Mome
 # --- held blocks: how tests are kept -------------------------------------------------------------------
 
 
-def blocks(board: Board, moments: Sequence[Moment]) -> list[tuple[int, dict[str, Value]]]:
+def blocks(board: Board, moments: Sequence[Moment]) -> list[tuple[int, Moment]]:
     """The script as steps in a row with equal inputs, and what changes from one such row to the next."""
-    found: list[tuple[int, dict[str, Value]]] = []
-    before = _at_rest(board)
-    for moment in moments:
-        changes = {name: value for name, value in moment.items() if before[name] != value}
-        if found and not changes:
-            found[-1] = (found[-1][0] + 1, found[-1][1])
-        else:
-            found.append((1, changes))
-        before = moment
-    return found
+    nothing: Cells = {}
+    rows = in_rows(_at_rest(board), nothing, ((moment, nothing) for moment in moments))
+    return [(count, changes) for count, changes, _ in rows]
 
 
 def unfolded(board: Board, rows: Sequence[tuple[int, Mapping[str, Value]]]) -> Script:

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
+from rovercheck.checker.results.board_steps import Changes
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import Bool, Num
@@ -78,17 +79,18 @@ def _tables(board: Board, tests: Sequence[ExpectedTest]) -> Iterator[str]:
     yield f"static const struct test tests[] = {{\n{named}}};\n"
 
 
-def _changes(numbers: Mapping[str, int]) -> Callable[[ExpectedRow], str]:
-    def shown(row: ExpectedRow) -> str:
-        both = {**row.inputs, **row.outputs}
+def _changes(numbers: Mapping[str, int]) -> Callable[[Changes], str]:
+    def shown(row: Changes) -> str:
+        _, inputs, outputs = row
+        both = {**inputs, **outputs}
         cells = ", ".join(f"{{{numbers[name]}, {_number(value)}}}" for name, value in both.items())
         return f"    {cells},\n" if cells else ""
 
     return shown
 
 
-def _counts(found: Sequence[ExpectedRow]) -> str:
-    return " ".join(f"{{{r.held}, {len(r.inputs) + len(r.outputs)}}}," for r in found)
+def _counts(found: Sequence[Changes]) -> str:
+    return " ".join(f"{{{held}, {len(inputs) + len(outputs)}}}," for held, inputs, outputs in found)
 
 
 def _number(value: Value | None) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board
 
 HEAD = '''"""Covering tests of {board}, made by `rovercheck generate-tests`.
@@ -66,9 +66,5 @@ def pytest_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, st
 
 def _test(board: Board, test: ExpectedTest) -> str:
     goals = "".join(f"        # {goal}\n" for goal in test.goals)
-    shown = "".join(f"        {_row(row)},\n" for row in rows(board, test))
+    shown = "".join(f"        {row!r},\n" for row in rows(board, test))
     return f"    {test.name!r}: [\n{goals}{shown}    ],\n"
-
-
-def _row(row: ExpectedRow) -> str:
-    return repr((row.held, dict(row.inputs), dict(row.outputs)))
