@@ -5,11 +5,13 @@ from typing import cast
 
 from benchmarks.faults.by_hand import Fault
 from benchmarks.faults.recorded import supervisor
+from rovercheck.checker.adapters.firmware import places
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values
 from rovercheck.checker.adapters.python_calls import Instance
 from rovercheck.checker.compare import effort, known_runs
 from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.spec_model.abstraction import boards
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,7 @@ class InProcess:
     """A supervisor as an implementation, in this process."""
 
     def __init__(self, fault: Fault) -> None:
-        self._make = fault.make or (lambda: Instance(supervisor(fault.board)))
+        self._make = fault.make or (lambda: Instance(supervisor(fault.board), places(boards()[fault.board])))
         self.reset()
 
     def reset(self) -> None:

@@ -4,7 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
+from rovercheck.checker.adapters.firmware import places
 from rovercheck.checker.adapters.python_calls import Instance
+from rovercheck.spec_model.abstraction import boards
 from rovercheck.supervisor.board1 import Board1, Board1Inputs, Board1Outputs
 from rovercheck.supervisor.board2.board import Board2
 from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
@@ -74,8 +76,8 @@ class LastPayload(Board2):
 About = tuple[str, str, str, str]
 """Kind, board, part and text of a fault."""
 IMPLEMENTATIONS: Mapping[About, Callable[[], Instance]] = {
-    about: partial(Instance, board)
-    for about, board in {
+    about: partial(Instance, supervisor, places(boards()[about[1]]))
+    for about, supervisor in {
         ("shared buffer", "board1", "UpdateMonitor", "heartbeats and frames note into one record"): OneRecord,
         ("shared buffer", "board2", "Slow2", "joystick and IMU note into one record"): OneRecord2,
         ("rounding", "board1", "BatteryMonitor", "the charge in whole percent"): WholePercent,

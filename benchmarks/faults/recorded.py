@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, get_type_hints
 
-from rovercheck.checker.adapters import firmware
+from rovercheck.checker.adapters.firmware import FirmwarePlaces, places
 from rovercheck.checker.adapters.implementation import Values
 from rovercheck.checker.adapters.records import builder, reader
 from rovercheck.checker.compare.beside import differs
+from rovercheck.spec_model.abstraction import boards
 
 CLASSES = {
     "board1": ("rovercheck.supervisor.board1.board", "Board1"),
@@ -72,16 +73,16 @@ def prepared(board: str, runs: Iterable[tuple[str, Sequence[tuple[Values, Values
 
     Raises ``Disagreement`` if the supervisor as it is imported now does not conform in them.
     """
-    power_up = supervisor(board)
+    power_up, held = supervisor(board), places(boards()[board])
     record = taken_by(power_up)
-    build = builder(record, firmware.inputs_of(record))
+    build = builder(record, held.inputs_of(record))
     for phase, steps in runs:
         instance = power_up()
         ready: list[Step] = []
         for inputs, expected in steps:
             taken = build(json.loads(json.dumps(inputs)))  # other objects in each step, as from an adapter
             given = instance.step(taken)
-            if wrong := _difference(given, expected):
+            if wrong := _difference(held, given, expected):
                 raise Disagreement(f"{board}, {phase}, step {len(ready) + 1}: {wrong}")
             ready.append(Step(inputs, expected, taken, given))
         yield Run(phase, ready)
@@ -94,25 +95,25 @@ def search(board: str, runs: Iterable[Run]) -> Found | int:
     """
     done, phase = 0, "start"
     try:
-        power_up = supervisor(board)
+        power_up, held = supervisor(board), places(boards()[board])
         record = taken_by(power_up)
-        build = builder(record, firmware.inputs_of(record))
+        build = builder(record, held.inputs_of(record))
         for run in runs:
             instance, phase = power_up(), run.phase
             for step in run.steps:
                 done += 1
                 same = type(step.taken) is record
                 given = instance.step(step.taken if same else build(step.inputs))
-                if given != step.given and (wrong := _difference(given, step.expected)):
+                if given != step.given and (wrong := _difference(held, given, step.expected)):
                     return Found(phase, done, wrong)
     except Exception as error:
         return Found(phase, done, type(error).__name__)
     return done
 
 
-def _difference(given: Any, expected: Values) -> str:
+def _difference(held: FirmwarePlaces, given: Any, expected: Values) -> str:
     """The first output that is missing or not what the charts require; "" if all are."""
-    actual = reader(firmware.outputs_of(type(given)))(given)
+    actual = reader(held.outputs_of(type(given)))(given)
     if not differs(expected, actual, set(expected)):
         return ""
     return next(name for name in expected if differs({name: expected[name]}, actual, set(expected)))

@@ -12,7 +12,7 @@ from rovercheck.spec_model.lang.errors import did_you_mean
 
 if TYPE_CHECKING:
     from rovercheck.spec_model.abstraction import Board
-    from rovercheck.spec_model.abstraction.board import BoardSignal
+    from rovercheck.spec_model.abstraction.signals import BoardSignal
 
 ROUNDINGS = ("nearest", "floor", "truncate")
 PLACE_KEYS = ("at", "scale", "offset", "rounding", "values")

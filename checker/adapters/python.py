@@ -1,6 +1,6 @@
 """Runs a Python class: ``python:MODULE:CLASS``, or ``python:FILE.py:CLASS``."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
@@ -28,18 +28,21 @@ def start(
     """
     address, names = f"{KIND}:{what}", [o.name for o in board.outputs]
     if not isolated:
-        return InProcess(address, what, names)
-    connect = partial(ours, python_calls.__name__, {"target": what}, limits)
+        return InProcess(address, what, board)
+    inputs, outputs = board.interface.places()
+    connect = partial(
+        ours, python_calls.__name__, {"target": what, "inputs": inputs, "outputs": outputs}, limits
+    )
     return Process(address, connect, names, limits)
 
 
 class InProcess:
     """A class that is called directly: quick, for code that is trusted."""
 
-    def __init__(self, address: str, target: str, names: Collection[str]) -> None:
-        self._address, self._names, self._steps = address, frozenset(names), 0
+    def __init__(self, address: str, target: str, board: "Board") -> None:
+        self._address, self._names, self._steps = address, frozenset(o.name for o in board.outputs), 0
         with self._failing():
-            self._power_up: PowerUp = python_calls.made(target)
+            self._power_up: PowerUp = python_calls.made(target, *board.interface.places())
         self.reset()
 
     def reset(self) -> None:

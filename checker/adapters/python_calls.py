@@ -10,8 +10,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, get_type_hints
 
-from rovercheck.checker.adapters import firmware
 from rovercheck.checker.adapters.child import PowerUp, RefusedStep
+from rovercheck.checker.adapters.firmware import FirmwarePlaces
 from rovercheck.checker.adapters.implementation import Value, Values
 from rovercheck.checker.adapters.lines import plain
 from rovercheck.checker.adapters.records import builder, reader
@@ -21,10 +21,11 @@ from rovercheck.spec_model.lang.errors import did_you_mean
 class Instance:
     """An instance of the user's class."""
 
-    def __init__(self, make: Callable[[], Any]) -> None:
+    def __init__(self, make: Callable[[], Any], places: FirmwarePlaces) -> None:
+        self._places = places
         self._step = make().step
         asked = _asked(self._step)
-        self._build = None if asked is None else builder(asked, firmware.inputs_of(asked))
+        self._build = None if asked is None else builder(asked, places.inputs_of(asked))
         self._readers: dict[type, Callable[[Any], dict[str, Value]]] = {}
 
     def step(self, inputs: Values) -> Mapping[str, Value]:
@@ -38,15 +39,17 @@ class Instance:
 
     def _reader(self, record: type) -> Callable[[Any], dict[str, Value]]:
         if record not in self._readers:
-            self._readers[record] = reader(firmware.outputs_of(record))
+            self._readers[record] = reader(self._places.outputs_of(record))
         return self._readers[record]
 
     def end(self) -> None:
         """Nothing has to be ended."""
 
 
-def made(target: str) -> PowerUp:
+def made(target: str, inputs: Mapping[str, str], outputs: Mapping[str, str]) -> PowerUp:
     """Instances of ``module:Class`` or ``path/file.py:Class``, or what a function called so returns.
+
+    ``inputs`` and ``outputs`` are the places in records of the supervisors of this project.
 
     Raises ``RefusedStep`` if there is none.
     """
@@ -62,7 +65,8 @@ def made(target: str) -> PowerUp:
         raise RefusedStep(f"{target} is no class; it is {make!r:.80}")
     if isinstance(make, type) and not hasattr(make, "step"):
         raise RefusedStep(f"{target} has no method 'step'; write step(self, inputs) -> outputs")
-    return lambda: Instance(make)
+    places = FirmwarePlaces(inputs, outputs)
+    return lambda: Instance(make, places)
 
 
 def _module(name: str) -> ModuleType:

@@ -6,9 +6,9 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise, product
 
-from rovercheck.spec_model.abstraction import Board, Value
-from rovercheck.spec_model.abstraction.board import BoardSignal, Raw, computed
-from rovercheck.spec_model.abstraction.signals import plain
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.interface import Carriage
+from rovercheck.spec_model.abstraction.signals import BoardSignal, Raw, computed, plain
 from rovercheck.spec_model.lang.action import Action, Assign, each_action, expressions
 from rovercheck.spec_model.lang.chart import Component, Enabled
 from rovercheck.spec_model.lang.domain import Num, Unit
@@ -109,24 +109,8 @@ def _means(system: System) -> Iterator[int]:
 
 
 def stamp_of_age(board: Board) -> dict[str, str]:
-    """The stamp from which each age is computed, by asking the reader."""
-    stamps = [s.name for s in board.inputs if s.stamp and s.name != "now_ms"]
-    fresh: dict[str, Value] = dict.fromkeys(stamps, 40)
-    young = _read(board, stamps, fresh)
-    found: dict[str, str] = {}
-    for old in stamps:
-        read = _read(board, stamps, fresh | {old: 20})
-        for name, var in board.system.inputs.items():
-            if isinstance(var.sort, Num) and var.sort.unit == MILLISECONDS and read[name] > young[name]:
-                found[name] = old
-    return found
-
-
-def _read(board: Board, stamps: list[str], second: dict[str, Value]) -> dict[str, int]:
-    """What the charts see in a second step with these stamps; in the first all were new."""
-    reader = board.reader()
-    reader.step(board.at_power_up() | {"now_ms": 20} | dict.fromkeys(stamps, 20))
-    return reader.step(board.at_power_up() | {"now_ms": 40} | second)
+    """The stamp from which each age is computed."""
+    return {v.var.name: v.signal.name for v in board.interface.by_carriage[Carriage.AGE]}
 
 
 def _silences(board: Board) -> dict[str, tuple[int, ...]]:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from rovercheck.checker.compare.stimulus import Change, Every, InputBlock
 from rovercheck.checker.compare.values import Values
-from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.abstraction import Board
 
 Blocks = list[InputBlock]
 Phase = Callable[["Environment"], st.SearchStrategy[Blocks]]
@@ -24,17 +24,19 @@ AROUND = (-1, 0, 1, 2)
 class Environment:
     """The surroundings of a board.
 
-    ``fields`` names what arrives with each stamp.  ``resting`` are values at rest, all others at their
-    initial value.  ``themes`` are phases that lead somewhere together, each with blocks that begin it.
+    ``themes`` are phases that lead somewhere together, each with blocks that begin it.
     """
 
     board: Board
-    fields: Mapping[str, tuple[str, ...]]
-    resting: Mapping[str, Value]
     themes: Mapping[str, tuple[Blocks, tuple[Phase, ...]]]
     means: tuple[int, ...] = ()
     scenes: Callable[["Environment"], Iterator[tuple[str, Blocks, Blocks]]] = lambda env: iter(())
     """Sequences that are always tried: what they are, blocks that begin a run of them, and one of them."""
+
+    @property
+    def fields(self) -> Mapping[str, tuple[str, ...]]:
+        """What arrives with each stamp."""
+        return self.board.interface.arrivals
 
     @cached_property
     def values(self) -> Values:
@@ -44,7 +46,10 @@ class Environment:
     def at_rest(self) -> tuple[tuple[str, Change], ...]:
         """Everything at rest, and every source updated in every step."""
         initial = {name: s.initial for name, s in self.values.signals.items()}
-        return (*({**initial, **self.resting}).items(), *((stamp, Every()) for stamp in self.values.stamps))
+        return (
+            *({**initial, **self.board.interface.resting}).items(),
+            *((stamp, Every()) for stamp in self.values.stamps),
+        )
 
     @cached_property
     def timers(self) -> tuple[int, ...]:

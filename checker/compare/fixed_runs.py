@@ -7,8 +7,7 @@ from rovercheck.checker.compare.aims import formulas
 from rovercheck.checker.compare.environment import AROUND, Blocks, Environment
 from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 from rovercheck.spec_model.abstraction import Value
-from rovercheck.spec_model.abstraction.board import computed
-from rovercheck.spec_model.abstraction.signals import plain
+from rovercheck.spec_model.abstraction.signals import computed, plain
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Temporal, When

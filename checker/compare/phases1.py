@@ -30,15 +30,6 @@ NORMAL, ESTOP = COMMAND.raw("CMD_NORMAL"), COMMAND.raw("CMD_ESTOP")
 FRAMES, HEARTBEATS = "b2_data_last_valid_ms", "last_valid_b2_ms"
 FORWARD: tuple[tuple[str, Change], ...] = (("y_norm", 1), ("cmd", NORMAL))
 
-FIELDS = {
-    FRAMES: (
-        "cmd", "x_norm", "y_norm", "current_yaw", "btn1", "btn2", "isMotionConsistent", "crit_mask_b2",
-        "degr_mask_b2",
-    ),
-    "temp_last_valid_ms": ("temperature_degC",),
-    "batt_last_valid_ms": ("battery_pct",),
-}  # fmt: skip
-
 
 @st.composite
 def manoeuvre(draw: st.DrawFn, env: Environment) -> Blocks:
@@ -139,8 +130,6 @@ def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
 
 BOARD1 = Environment(
     boards()["board1"],
-    FIELDS,
-    resting={"temperature_degC": 25, "battery_pct": 80},
     themes={
         "anything": ([], (disturb, flicker, rest, lose)),
         "driving": ([InputBlock(2, FORWARD)], (manoeuvre, manoeuvre, half_turn, disturb, flicker, rest)),

@@ -33,12 +33,6 @@ FRAMES, HEARTBEATS, JOYSTICK, IMU = (
     "b1_data_last_valid_ms", "last_valid_b1_ms", "ble_last_valid_ms", "imu_last_valid_ms",
 )  # fmt: skip
 SPEEDS = tuple(f"wheel_speed_rpm_{w}" for w in WHEELS)
-FIELDS = {
-    FRAMES: ("crit_mask_b1", "degr_mask_b1", *SPEEDS),
-    JOYSTICK: ("bx_norm", "ay_norm", "btn1", "btn2"),
-    IMU: ("yaw", "gz_dps"),
-    "sonar_last_valid_ms": SONARS,
-}
 DRIVE: tuple[tuple[str, Change], ...] = (
     ("crit_mask_b1", SWITCH), ("ay_norm", 1), *((d, NO_ECHO) for d in SONARS),
 )  # fmt: skip
@@ -215,8 +209,6 @@ def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
 
 BOARD2 = Environment(
     boards()["board2"],
-    FIELDS,
-    resting={d: NO_ECHO for d in SONARS},
     themes={
         "anything": ([], (disturb, flicker, rest, lose)),
         "obstacles": ([], (passing, passing, degrade, disturb, rest)),

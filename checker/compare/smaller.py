@@ -11,9 +11,9 @@ from rovercheck.checker.adapters.implementation import Implementation, Implement
 from rovercheck.checker.compare.beside import StepMismatch, compared, rerun
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.result import ALLOWED
-from rovercheck.checker.compare.stimulus import NOW, SILENT, Change, Every, InputBlock, Stimulus, clocked
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus, clocked
 from rovercheck.spec_model.abstraction import Board
-from rovercheck.spec_model.abstraction.stamps import CLOCK, since
+from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, since
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import TICK_MS
 

@@ -10,12 +10,11 @@ from itertools import cycle
 from typing import Protocol
 
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
-from rovercheck.spec_model.abstraction.stamps import CLOCK
+from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TICK_MS
 
-NOW = "now_ms"
 FULL_TURN = 360
 
 

@@ -9,9 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from rovercheck.checker.compare.aims import Aims, Boundary, aims
-from rovercheck.checker.compare.stimulus import NOW, Toward, clocked
+from rovercheck.checker.compare.stimulus import Toward, clocked
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
-from rovercheck.spec_model.abstraction.board import units
+from rovercheck.spec_model.abstraction.signals import units
 from rovercheck.spec_model.lang.domain import Num, Unit
 
 DEGREES = Unit.of("°")
@@ -168,4 +168,4 @@ def _representatives(signal: BoardSignal) -> Iterable[Value]:
     return values + ends if isinstance(sort, Num) else values
 
 
-__all__ = ["NOW", "PARTS", "Values", "around", "nearest"]
+__all__ = ["PARTS", "Values", "around", "nearest"]

@@ -5,9 +5,9 @@ from fractions import Fraction
 
 from rovercheck.checker.logs.cells import Raw
 from rovercheck.checker.logs.log import Cells, LogBlock
-from rovercheck.checker.logs.signals import TIME, SignalView, Vocabulary
-from rovercheck.spec_model.abstraction.board1 import MEAN_MS
-from rovercheck.spec_model.abstraction.stamps import CLOCK, MeanOfTen
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.spec_model.abstraction.interface import Carriage, SignalView
+from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, MeanOfTen
 from rovercheck.spec_model.lang.system import TICK_MS
 
 See = Callable[[LogBlock], Cells]
@@ -19,7 +19,7 @@ class InputDecoder:
     def __init__(self, vocabulary: Vocabulary, signals: frozenset[str], from_power_up: bool) -> None:
         self._see: dict[str, See] = {}
         for name, sight in vocabulary.sights.items():
-            if sight.signal.name in signals and (sight.how != "age" or TIME in signals):
+            if sight.signal.name in signals and (sight.how is not Carriage.AGE or NOW in signals):
                 self._see[name] = _SEES[sight.how](sight, from_power_up)
 
     @property
@@ -40,7 +40,7 @@ def _age(sight: SignalView, _from_power_up: bool) -> See:
     ages = _Ages()
 
     def see(block: LogBlock) -> Cells:
-        stamps, now = block.values[sight.signal.name], block.values[TIME]
+        stamps, now = block.values[sight.signal.name], block.values[NOW]
         return [None if t is None or s is None else ages[t - s] for t, s in zip(now, stamps, strict=True)]
 
     return see
@@ -60,7 +60,7 @@ class _Advance:
 
     def __init__(self, sight: SignalView, from_power_up: bool) -> None:
         self._name = sight.signal.name
-        self._only_whether = sight.how == "update"
+        self._only_whether = sight.how is Carriage.UPDATE
         self._before: Raw | None = 0 if from_power_up else None
 
     def __call__(self, block: LogBlock) -> Cells:
@@ -82,7 +82,8 @@ class _Slow:
 
     def __init__(self, sight: SignalView, from_power_up: bool) -> None:
         self._name = sight.signal.name
-        self._mean = MeanOfTen(MEAN_MS)
+        self._mean_ms = sight.mean_ms
+        self._mean = MeanOfTen(self._mean_ms)
         self._before: Raw | None = 0
         self._slow: Raw | None = 0
         self._wanted = 0 if from_power_up else 11
@@ -97,7 +98,7 @@ class _Slow:
 
     def _row(self, missing: int, stamp: Raw | None) -> Raw | None:
         if missing or stamp is None:
-            self._mean, self._wanted, self._slow = MeanOfTen(MEAN_MS), 11, None
+            self._mean, self._wanted, self._slow = MeanOfTen(self._mean_ms), 11, None
         if stamp is not None and stamp != self._before:
             self._wanted -= 1
             slow = int(self._mean.step(int(stamp)))
@@ -106,10 +107,10 @@ class _Slow:
         return self._slow if self._wanted <= 0 else None
 
 
-_SEES: Mapping[str, Callable[[SignalView, bool], See]] = {
-    "sample": _sample,
-    "age": _age,
-    "update": _Advance,
-    "advance": _Advance,
-    "slow": _Slow,
+_SEES: Mapping[Carriage, Callable[[SignalView, bool], See]] = {
+    Carriage.SAMPLE: _sample,
+    Carriage.AGE: _age,
+    Carriage.UPDATE: _Advance,
+    Carriage.ADVANCE: _Advance,
+    Carriage.SLOW: _Slow,
 }

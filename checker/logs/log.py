@@ -11,8 +11,9 @@ from rovercheck.checker.logs.errors import LogError, at, shortened
 from rovercheck.checker.logs.files import FileRows, opened
 from rovercheck.checker.logs.invalid import Invalid, InvalidCell
 from rovercheck.checker.logs.mapping import Column, ColumnMap
-from rovercheck.checker.logs.signals import TIME, Vocabulary
+from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import BoardSignal, boards
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.errors import did_you_mean
 from rovercheck.spec_model.lang.system import TICK_MS
@@ -66,7 +67,7 @@ class LogLayout:
 
     @property
     def timed(self) -> bool:
-        return TIME in self.signals
+        return NOW in self.signals
 
 
 @dataclass
@@ -93,14 +94,14 @@ class Log:
 
     def _blocks(self) -> Iterator[LogBlock]:
         clock, stamps = _Clock(self.how.start), _Stamps(self.layout)
-        time = next((self.rows.header[i] for i, signal, _ in self.converters if signal == TIME), TIME)
+        time = next((self.rows.header[i] for i, signal, _ in self.converters if signal == NOW), NOW)
         while (read := self._read()).lines:
             timed = read.timed(time)
             if timed.lines[:1] != read.lines[:1]:
                 clock.passed_over()
             ticks: Sequence[int] = ()
             if timed.lines:
-                ticks, missing = clock.steps(timed.lines, timed.values.get(TIME))
+                ticks, missing = clock.steps(timed.lines, timed.values.get(NOW))
                 self.start = clock.start
             self._note(timed, ticks)
             if timed.lines:
@@ -144,19 +145,19 @@ class _Values:
 
     def timed(self, column: str) -> "_Values":
         """The rows whose time is known: of another one nobody knows which step it is."""
-        times = self.values.get(TIME)
+        times = self.values.get(NOW)
         if times is None or None not in times:
             return self
         keep = [time is not None for time in times]
         rows = {name: list(compress(cells, keep)) for name, cells in self.values.items()}
-        told = {c.line for c in self.invalid if c.signal == TIME}
+        told = {c.line for c in self.invalid if c.signal == NOW}
         empty = (
-            InvalidCell(column, TIME, "", "the time of the step is empty.", line)
+            InvalidCell(column, NOW, "", "the time of the step is empty.", line)
             for line, kept in zip(self.lines, keep, strict=True)
             if not kept and line not in told
         )
         found = [
-            replace(c, because=f"{c.because} The row is passed over.") if c.signal == TIME else c
+            replace(c, because=f"{c.because} The row is passed over.") if c.signal == NOW else c
             for c in (*self.invalid, *empty)
         ]
         return _Values(list(compress(self.lines, keep)), rows, found)
@@ -238,7 +239,7 @@ class _Stamps:
         values = dict(block.values)
         for column in self._told:
             make = self._from_updates if column.kind == "update" else self._from_ages
-            values[column.signal] = make(column.signal, values[TIME], values[column.signal])
+            values[column.signal] = make(column.signal, values[NOW], values[column.signal])
         return replace(block, values=values) if self._told else block
 
     def _from_updates(self, signal: str, now: Cells, updates: Cells) -> Cells:
@@ -305,7 +306,7 @@ def _layout(header: Sequence[str], how: ColumnMap, system: str) -> LogLayout:
     ignored = tuple(name for name in header if name not in stated)
     layout = LogLayout(board, stated, ignored)
     if any(c.kind != "value" for c in stated.values()) and not layout.timed:
-        raise LogError(f"holds updates or ages but not the time of the step; map a column to {TIME}.")
+        raise LogError(f"holds updates or ages but not the time of the step; map a column to {NOW}.")
     return layout
 
 
@@ -325,8 +326,8 @@ def _stated(header: Sequence[str], how: ColumnMap, vocabulary: Vocabulary) -> di
             found[name] = how.columns[name]
         elif name in vocabulary.signals and name not in mapped:
             found[name] = Column(name)
-    if not any(c.signal == TIME for c in found.values()):
-        found |= {n: Column(TIME) for n in [t for t in TIMES if t in header and t not in found][:1]}
+    if not any(c.signal == NOW for c in found.values()):
+        found |= {n: Column(NOW) for n in [t for t in TIMES if t in header and t not in found][:1]}
     return found
 
 
@@ -338,11 +339,11 @@ def _named(header: Sequence[str]) -> str:
 
 def _board_of(header: Sequence[str], how: ColumnMap) -> str:
     names = {how.columns[name].signal if name in how.columns else name for name in header}
-    scores = {n: len(names & Vocabulary(b).signals.keys() - {TIME}) for n, b in boards().items()}
+    scores = {n: len(names & Vocabulary(b).signals.keys() - {NOW}) for n, b in boards().items()}
     best = max(scores, key=lambda name: scores[name])
     others = [n for n, score in scores.items() if n != best and score == scores[best]]
     if not scores[best]:
-        some = ", ".join(list(Vocabulary(boards()["board1"]).signals)[:8])
+        some = ", ".join(list(Vocabulary(next(iter(boards().values()))).signals)[:8])
         raise LogError(
             f"no column has the name of a signal ({some} ...): its columns are {_named(header)}. "
             "Write a map of the columns, and name it with --map."

@@ -1,8 +1,9 @@
 """A run as firmware sees it: the values given to a board in each step, and what it must then produce."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeVar
 
 Value = bool | int | float
 
@@ -55,27 +56,37 @@ class BoardRun:
     implementation: str
 
 
-Changes = tuple[int, Mapping[str, Value | None], Mapping[str, Value | None]]
+Given = TypeVar("Given", bound=Value | None)
+Cells = Mapping[str, Value | None]
+Changes = tuple[int, Cells, Cells]
 """Equal steps in a row: how many, and the inputs and the outputs that differ from the step before."""
+
+
+def in_rows(
+    inputs: Mapping[str, Given], outputs: Cells, steps: Iterable[tuple[Mapping[str, Given], Cells]]
+) -> list[tuple[int, Mapping[str, Given], Cells]]:
+    """Steps of inputs and required outputs as few changes, from what holds before the first."""
+    found: list[tuple[int, Mapping[str, Given], Cells]] = []
+    for given, required in steps:
+        changed = {n: v for n, v in given.items() if v != inputs[n]}
+        wanted = {n: v for n, v in required.items() if v != outputs[n]}
+        if found and not changed and not wanted:
+            found[-1] = (found[-1][0] + 1, *found[-1][1:])
+        else:
+            found.append((1, changed, wanted))
+        inputs, outputs = given, required
+    return found
 
 
 def held(run: BoardRun) -> list[Changes]:
     """The steps as few changes.  Before the first, inputs are as at power-up, stamps as they were, and
     outputs may be anything (None)."""
-    inputs: Mapping[str, Value | None] = {
+    inputs: Cells = {
         s.name: None if s.kind is SignalKind.STAMP else s.initial
         for s in run.inputs
         if s.kind is not SignalKind.CLOCK
     }
-    outputs: Mapping[str, Value | None] = {s.name: None for s in run.outputs}
-    found: list[Changes] = []
-    for step in run.steps:
-        required = {name: step.outputs.get(name) for name in outputs}
-        given = {n: v for n, v in step.inputs.items() if v != inputs[n]}
-        wanted = {n: v for n, v in required.items() if v != outputs[n]}
-        if found and not given and not wanted:
-            found[-1] = (found[-1][0] + 1, *found[-1][1:])
-        else:
-            found.append((1, given, wanted))
-        inputs, outputs = step.inputs, required
-    return found
+    outputs: Cells = {s.name: None for s in run.outputs}
+    return in_rows(
+        inputs, outputs, ((s.inputs, {name: s.outputs.get(name) for name in outputs}) for s in run.steps)
+    )

@@ -7,9 +7,10 @@ from random import Random
 
 from rovercheck.checker.system.instrument.goals import Watched
 from rovercheck.checker.testgen.compiled_charts import Step, compiled
-from rovercheck.checker.testgen.scripts import CLOCK, Moment, Script
-from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
-from rovercheck.spec_model.abstraction.board import BoardReader, units
+from rovercheck.checker.testgen.scripts import Moment, Script
+from rovercheck.spec_model.abstraction import Board, BoardSignal, InterfaceReader, Value
+from rovercheck.spec_model.abstraction.signals import units
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Temporal
@@ -19,11 +20,6 @@ from rovercheck.spec_model.lang.walk import nodes
 
 # --- random inputs as a rover meets them ---------------------------------------------------------------
 
-WELL: Mapping[str, Value] = {
-    "temperature_degC": 25, "battery_pct": 80, "d1": 301, "d2": 301, "d3": 301, "isMotionConsistent": True,
-    "crit_mask_b1": 4, "x_norm": 0, "y_norm": 0, "bx_norm": 0, "ay_norm": 0, "gz_dps": 0,
-}  # fmt: skip
-"""A rover at rest with nothing wrong; on Board 2, Board 1 asks for its references."""
 SHORT = (1, 1, 1, 2, 2, 3, 5, 7)
 LONG = 0.3
 """Share of blocks that are held for the length of a timer."""
@@ -47,13 +43,15 @@ class RandomInputs:
     """Random inputs of one board."""
 
     def __init__(self, board: Board) -> None:
-        self._signals = [s for s in board.inputs if s.name != CLOCK]
+        self._signals = [s for s in board.inputs if s.name != NOW]
+        well = {s.name: s.initial for s in self._signals} | dict(board.interface.in_charge)
+        self._well: Moment = {s.name: True if s.stamp else well[s.name] for s in self._signals}
         self._holds = lengths(board)
         self._read = [names for c in board.system.charts if (names := _signals_read(c, self._signals))]
 
     def run(self, random: Random, ticks: int, data: Data) -> Iterator[Moment]:
         """The inputs of a random run; ``data`` is asked as it goes."""
-        at = {s.name: _well(s) for s in self._signals}
+        at: Moment = self._well
         lively = self._lively(random)
         left = 0
         for _ in range(ticks):
@@ -61,7 +59,9 @@ class RandomInputs:
                 left = random.choice(self._holds if random.random() < LONG else SHORT)
                 if random.randrange(OFTEN) == 0:
                     lively = self._lively(random)
-                at = {s.name: _next(random, s, at[s.name], s.name in lively, data) for s in self._signals}
+                at = {
+                    s.name: self._next(random, s, at[s.name], s.name in lively, data) for s in self._signals
+                }
             left -= 1
             yield at
 
@@ -72,27 +72,22 @@ class RandomInputs:
         share = random.choice((0.05, 0.1, 0.25, 0.6))
         return {s.name for s in self._signals if random.random() < share}
 
+    def _next(self, random: Random, signal: BoardSignal, now: Value, lively: bool, data: Data) -> Value:
+        if not lively:
+            return self._well[signal.name] if random.random() < 0.3 else now
+        if signal.stamp:
+            return random.random() < 0.5
+        if random.random() < 0.3:
+            return now
+        if _heading(signal) and random.random() < 0.7:
+            return _near_a_heading(random, signal, data())
+        return units(signal.domain, random.choice(signal.domain.values))
+
 
 def _signals_read(chart: Chart, signals: Sequence[BoardSignal]) -> list[str]:
     """The signals that a chart reads itself, in the order of the board."""
     read = {v.name.rpartition(".")[2] for v in chart.read.values()}
     return [s.name for s in signals if s.name in read]
-
-
-def _well(signal: BoardSignal) -> Value:
-    return True if signal.stamp else WELL.get(signal.name, signal.initial)
-
-
-def _next(random: Random, signal: BoardSignal, now: Value, lively: bool, data: Data) -> Value:
-    if not lively:
-        return _well(signal) if random.random() < 0.3 else now
-    if signal.stamp:
-        return random.random() < 0.5
-    if random.random() < 0.3:
-        return now
-    if _heading(signal) and random.random() < 0.7:
-        return _near_a_heading(random, signal, data())
-    return units(signal.domain, random.choice(signal.domain.values))
 
 
 def _heading(signal: BoardSignal) -> bool:
@@ -131,7 +126,7 @@ class TriedRun:
     machine: RandomMachine
     at: dict[str, int]
     stamps: dict[str, Value]
-    reader: BoardReader
+    reader: InterfaceReader
     given: list[Moment]
 
     @staticmethod
@@ -154,7 +149,7 @@ class TriedRun:
         self.given.append(moment)
         now = len(self.given) * TICK_MS
         self.stamps |= {name: now for name in self.stamps if moment.get(name)}
-        self.stamps[CLOCK] = now
+        self.stamps[NOW] = now
         self.at |= self.reader.step({**moment, **self.stamps})
         self.machine.step(self.at)
         return [id for id, flag in self.machine.flags if self.at[flag]]

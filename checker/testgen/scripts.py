@@ -3,7 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from rovercheck.checker.results.board_steps import Cells, in_rows
 from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -12,8 +14,6 @@ Moment = Mapping[str, Value]
 
 Script = tuple[Moment, ...]
 """The inputs of a test, step by step from power-up."""
-
-CLOCK = "now_ms"
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def steps(board: Board, script: Sequence[Moment]) -> tuple[dict[str, Value], ...
     for number, moment in enumerate(script, start=1):
         now = number * TICK_MS
         stamps |= {name: now for name in stamps if moment.get(name)}
-        stamps[CLOCK] = now
+        stamps[NOW] = now
         found.append({s.name: stamps[s.name] if s.stamp else moment[s.name] for s in board.inputs})
     return tuple(found)
 
@@ -49,7 +49,7 @@ def script(board: Board, given: Sequence[Mapping[str, Value]]) -> Script:
 def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Moment]:
     before: Mapping[str, Value] = board.at_power_up()
     for number, inputs in enumerate(given, start=1):
-        now = inputs[CLOCK]
+        now = inputs[NOW]
         if now != number * TICK_MS:
             raise ModelError(f"step {number} is at {now} ms; in a test step k is at {TICK_MS} k ms.")
         moment = dict(inputs)
@@ -58,7 +58,7 @@ def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Mome
                 moment[signal.name] = inputs[signal.name] == now
                 if not moment[signal.name] and inputs[signal.name] != before[signal.name]:
                     raise ModelError(f"step {number}: {signal.name} is neither {now} ms nor as before.")
-        del moment[CLOCK]
+        del moment[NOW]
         yield moment
         before = inputs
 
@@ -66,18 +66,11 @@ def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Mome
 # --- held blocks: how tests are kept -------------------------------------------------------------------
 
 
-def blocks(board: Board, moments: Sequence[Moment]) -> list[tuple[int, dict[str, Value]]]:
+def blocks(board: Board, moments: Sequence[Moment]) -> list[tuple[int, Moment]]:
     """The script as steps in a row with equal inputs, and what changes from one such row to the next."""
-    found: list[tuple[int, dict[str, Value]]] = []
-    before = _at_rest(board)
-    for moment in moments:
-        changes = {name: value for name, value in moment.items() if before[name] != value}
-        if found and not changes:
-            found[-1] = (found[-1][0] + 1, found[-1][1])
-        else:
-            found.append((1, changes))
-        before = moment
-    return found
+    nothing: Cells = {}
+    rows = in_rows(_at_rest(board), nothing, ((moment, nothing) for moment in moments))
+    return [(count, changes) for count, changes, _ in rows]
 
 
 def unfolded(board: Board, rows: Sequence[tuple[int, Mapping[str, Value]]]) -> Script:
@@ -91,4 +84,4 @@ def unfolded(board: Board, rows: Sequence[tuple[int, Mapping[str, Value]]]) -> S
 
 
 def _at_rest(board: Board) -> Moment:
-    return {s.name: False if s.stamp else s.initial for s in board.inputs if s.name != CLOCK}
+    return {s.name: False if s.stamp else s.initial for s in board.inputs if s.name != NOW}

@@ -3,9 +3,11 @@
 from collections import deque
 from fractions import Fraction
 
-from rovercheck.spec_model.abstraction.board import Raw, whole
+from rovercheck.spec_model.abstraction.signals import Raw, whole
 from rovercheck.spec_model.lang.system import TICK_MS
 
+NOW = "now_ms"
+"""The name of the clock itself, the time of the step, on every board."""
 CLOCK = 1 << 32
 """The clock of a board starts again at 0 after 49.7 days."""
 

@@ -1,10 +1,8 @@
 """A toy board: a lamp that a button lights and a timer puts out; one transition can never be taken."""
 
-from collections.abc import Mapping
-
-from rovercheck.spec_model.abstraction import Board, Output, Value
-from rovercheck.spec_model.abstraction.board import Values, units
-from rovercheck.spec_model.abstraction.signals import discrete, measured, stamp
+from rovercheck.spec_model.abstraction import Board, Output
+from rovercheck.spec_model.abstraction.interface import BoardInterface, clock, produced, sample
+from rovercheck.spec_model.abstraction.signals import discrete, measured
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, State, to
 from rovercheck.spec_model.lang.domain import chosen
@@ -37,33 +35,13 @@ NEVER = "Lamp.arrow.3"
 AFTER_NEVER = "Lamp.pair.1-3"
 
 
-class Plain:
-    """Inputs of the chart are those of the board, as reader and as writer."""
-
-    def __init__(self) -> None:
-        self._now = 0
-
-    def step(self, inputs: Values) -> dict[str, int]:
-        return {"press": int(inputs["press"]), "light_lx": int(inputs["light_lx"])}
-
-
-class Written:
-    def __init__(self) -> None:
-        self._now = 0
-
-    def step(self, at: Mapping[str, int]) -> dict[str, Value]:
-        self._now += TICK_MS
-        given = {v.name: units(v.domain, at.get(v.name, v.init)) for v in (press, light)}
-        return {"now_ms": self._now, **given}
-
-
 SYSTEM = in_order("toy", lamp, text="The lamp alone")
 TOY = Board(
     name="toy",
     system=SYSTEM,
-    inputs=(stamp("now_ms", "start of the step"), discrete(press), measured(light, 0, 1000, whole=True)),
-    outputs=(Output(discrete(lit), lit),),
-    reader=Plain,
-    writer=Written,
+    interface=BoardInterface(
+        (clock(), sample(discrete(press), press), sample(measured(light, 0, 1000, whole=True), light)),
+        produced((Output(discrete(lit), lit),)),
+    ),
     grid_ms=TICK_MS,
 )

@@ -7,6 +7,7 @@ from io import StringIO
 from pathlib import Path
 from random import Random
 
+from rovercheck.checker.adapters.firmware import places
 from rovercheck.checker.adapters.python_calls import Instance
 from rovercheck.spec_model.abstraction import Board, BoardSignal, boards
 from rovercheck.supervisor.board1 import Board1
@@ -52,7 +53,7 @@ def value(signal: BoardSignal, random: Random) -> bool | int | float:
 
 def record(board: Board, steps: int, seed: int = 1, restless: float = 0.04) -> list[Row]:
     """The rows of a log: a step each, from power-up."""
-    random, firmware = Random(seed), Instance(FIRMWARE[board.name])
+    random, firmware = Random(seed), Instance(FIRMWARE[board.name], places(board))
     at: Row = {s.name: HEALTHY.get(s.name, s.initial) for s in board.inputs}
     pauses = dict.fromkeys((s.name for s in board.inputs if s.stamp), 0)
     rows: list[Row] = []

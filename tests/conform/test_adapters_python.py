@@ -5,7 +5,8 @@ from math import isinf
 
 import pytest
 
-from rovercheck.checker.adapters import AdapterLimits, firmware, start
+from rovercheck.checker.adapters import AdapterLimits, start
+from rovercheck.checker.adapters.firmware import places
 from rovercheck.checker.adapters.implementation import ImplementationError, run
 from rovercheck.checker.adapters.python import start as start_python
 from rovercheck.checker.adapters.records import builder, reader
@@ -25,20 +26,20 @@ OPTIONAL = {"left_rpm", "right_rpm"}
 @pytest.mark.parametrize("name", FIRMWARE)
 def test_every_signal_has_its_place_in_our_firmware(name):
     board, (_, inputs, outputs) = BOARDS[name], FIRMWARE[name]
-    assert set(firmware.inputs_of(inputs)) == {s.name for s in board.inputs}
-    assert set(firmware.outputs_of(outputs)) == {o.name for o in board.outputs}
-    assert builder(inputs, firmware.inputs_of(inputs))(board.at_power_up()) == inputs()
-    given = reader(firmware.outputs_of(outputs))(outputs())
+    assert set(places(board).inputs_of(inputs)) == {s.name for s in board.inputs}
+    assert set(places(board).outputs_of(outputs)) == {o.name for o in board.outputs}
+    assert builder(inputs, places(board).inputs_of(inputs))(board.at_power_up()) == inputs()
+    given = reader(places(board).outputs_of(outputs))(outputs())
     assert set(given) == {o.name for o in board.outputs} - OPTIONAL
-    places = list(firmware.inputs_of(inputs).values())
-    assert len(set(places)) == len(places)
+    held = list(places(board).inputs_of(inputs).values())
+    assert len(set(held)) == len(held)
 
 
 @pytest.mark.parametrize("name", FIRMWARE)
 def test_every_input_reaches_its_own_place(name):
     """Set alone, each changes the record in one field, and another than all the others."""
     board, (_, inputs, _) = BOARDS[name], FIRMWARE[name]
-    build, at_rest = builder(inputs, firmware.inputs_of(inputs)), board.at_power_up()
+    build, at_rest = builder(inputs, places(board).inputs_of(inputs)), board.at_power_up()
     built = {
         build({**at_rest, s.name: (not s.initial) if s.initial in (True, False) else 1}) for s in board.inputs
     }
@@ -46,7 +47,7 @@ def test_every_input_reaches_its_own_place(name):
 
 
 def test_what_is_not_sent_is_left_out():
-    read = reader(firmware.outputs_of(Board2Outputs))
+    read = reader(places(BOARDS["board2"]).outputs_of(Board2Outputs))
     silent = read(Board2Outputs())
     sending = read(Board2Outputs(actuated=Actuated(False, motors=MotorCommand(4.0, -4.0))))
     assert not silent["sends_speeds"] and not OPTIONAL & set(silent)

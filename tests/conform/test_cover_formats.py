@@ -53,11 +53,11 @@ def ran(*command: str, cwd: Path) -> subprocess.CompletedProcess[str]:
 def test_rows_stand_for_inputs_and_outputs_of_every_step() -> None:
     for test in TESTS:
         found = rows(TOY, test)
-        assert unfolded(TOY, [(row.held, row.inputs) for row in found]) == test.script
+        assert unfolded(TOY, [(held, given) for held, given, _ in found]) == test.script
         lit, outputs = None, []
-        for row in found:
-            lit = row.outputs.get("lit", lit)
-            outputs += [{"lit": lit}] * row.held
+        for held, _, required in found:
+            lit = required.get("lit", lit)
+            outputs += [{"lit": lit}] * held
         assert outputs == list(test.outputs)
 
 

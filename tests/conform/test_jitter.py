@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import pytest
 
+from rovercheck.checker.adapters.firmware import places
 from rovercheck.checker.adapters.python_calls import Instance
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.compare.beside import differs, rerun
@@ -11,7 +12,8 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.abstraction import Board, boards
-from rovercheck.spec_model.abstraction.board import in_steps_of, units
+from rovercheck.spec_model.abstraction.board import in_steps_of
+from rovercheck.spec_model.abstraction.signals import units
 from rovercheck.spec_model.rover import systems
 from tests.conform.recorded import FIRMWARE
 
@@ -54,7 +56,7 @@ def test_a_violation_by_jitter_is_one_of_the_supervisor(id: str) -> None:
     board, trace = boards()[name], run_of(id)
     inputs = given(board, trace)
     assert [int(i["now_ms"]) for i in inputs] == list(trace.ends)
-    firmware = Instance(FIRMWARE[name])
+    firmware = Instance(FIRMWARE[name], places(board))
     did = [firmware.step(one) for one in inputs]
     required = [step.expected for step in rerun(board, inputs)]
     assert not any(differs(one, other, set()) for one, other in zip(required, did, strict=True))

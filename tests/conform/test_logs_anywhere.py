@@ -14,8 +14,9 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.logs import ColumnMap, LogResult, examine
 from rovercheck.checker.logs.cones import LogCone, cones
 from rovercheck.checker.logs.program import NeededInputs
-from rovercheck.checker.logs.signals import TIME, Vocabulary
+from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.abstraction.stamps import NOW
 from tests.conform.recorded import copied, long_log
 from tests.profiles import examples
 
@@ -79,7 +80,7 @@ def test_a_good_log_deviates_nowhere_whichever_column_is_absent(
 ) -> None:
     for start in (0, 230):
         found = judged(tmp_path, obstacle[board][start : start + 10], board, (column,))
-        assert column == TIME or not found.deviates
+        assert column == NOW or not found.deviates
 
 
 STRANGE = ("", "0", "1", "3", "7", "-1", "0.5", "255", "1e17", "-1e30", "1e309", "nan", "CMD_ESTOP", "x")
@@ -98,7 +99,7 @@ def test_an_output_may_be_anything_at_any_tick(board: str, output: str, tmp_path
 @examples(15)
 @given(data=st.data(), board=st.sampled_from(BOARDS))
 def test_anything_at_once(tmp_path_factory: pytest.TempPathFactory, data: st.DataObject, board: str) -> None:
-    names = [n for n in Vocabulary(boards()[board]).signals if n != TIME]
+    names = [n for n in Vocabulary(boards()[board]).signals if n != NOW]
     start = data.draw(st.integers(0, 1900))
     rows = [dict(row) for row in recorded(board)[start : start + data.draw(st.sampled_from([2, 6, 20]))]]
     for _ in range(data.draw(st.integers(0, 3))):
@@ -108,7 +109,7 @@ def test_anything_at_once(tmp_path_factory: pytest.TempPathFactory, data: st.Dat
         )
     if data.draw(st.booleans()) and len(rows) > 2:
         del rows[1 : data.draw(st.integers(2, len(rows) - 1))]
-    without = data.draw(st.lists(st.sampled_from([*names, TIME]), max_size=8, unique=True))
+    without = data.draw(st.lists(st.sampled_from([*names, NOW]), max_size=8, unique=True))
     judged(tmp_path_factory.getbasetemp(), rows, board, tuple(without))
 
 

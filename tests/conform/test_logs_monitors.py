@@ -34,7 +34,7 @@ from rovercheck.properties.forms import (
 )
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.abstraction import Output, boards
-from rovercheck.spec_model.abstraction.board import computed
+from rovercheck.spec_model.abstraction.signals import computed
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.expr import Const, flag, implies
 from rovercheck.spec_model.lang.system import TransitionSystem

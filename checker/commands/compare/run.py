@@ -1,6 +1,6 @@
 """``rovercheck compare``: an implementation and the charts side by side, under the same inputs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -24,11 +24,6 @@ from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import did_you_mean
 
 SCHEMA = 1
-OURS: Mapping[str, str] = {
-    "board1": "python:rovercheck.supervisor.board1:Board1",
-    "board2": "python:rovercheck.supervisor.board2.board:Board2",
-}
-"""The supervisors of the project, which are checked unless another is named."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +55,7 @@ def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exi
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
     reports: list[CrosscheckReport] = []
     for board in named:
-        address = asked.address or OURS[board.name]
+        address = asked.address or board.supervisor
         if not as_json:
             _announce(asked, board, address, seed)
         result = _checked(asked, board, address, seed)

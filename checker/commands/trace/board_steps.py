@@ -6,10 +6,9 @@ from dataclasses import replace
 from rovercheck.checker.compare.beside import SteppedCharts
 from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
 from rovercheck.checker.results.trace import Tick, Trace
-from rovercheck.checker.testgen.formats.pytest_files import OURS
-from rovercheck.checker.testgen.scripts import CLOCK
 from rovercheck.spec_model.abstraction import Board, BoardSignal, boards
 from rovercheck.spec_model.abstraction.board import in_steps_of
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.errors import ModelError
@@ -69,14 +68,14 @@ def _run(board: Board, trace: Trace, system: System) -> BoardRun:
         inputs = writer.step(at)
         required = charts.step(inputs).expected
         _same(board, trace, tick, names, charts.valuation())
-        given = {n: _lag(inputs, before, n) if n in stamps else v for n, v in inputs.items() if n != CLOCK}
+        given = {n: _lag(inputs, before, n) if n in stamps else v for n, v in inputs.items() if n != NOW}
         steps.append(BoardStep(given, required))
         before = inputs
-    return BoardRun(board.name, TICK_MS, *signals(board), tuple(steps), OURS[board.name])
+    return BoardRun(board.name, TICK_MS, *signals(board), tuple(steps), board.supervisor)
 
 
 def _lag(inputs: Mapping[str, Value], before: Mapping[str, Value], stamp: str) -> Value | None:
-    return inputs[CLOCK] - inputs[stamp] if inputs[stamp] != before[stamp] else None
+    return inputs[NOW] - inputs[stamp] if inputs[stamp] != before[stamp] else None
 
 
 def _same(board: Board, trace: Trace, tick: Tick, names: Sequence[str], valuation: Mapping[str, int]) -> None:
@@ -111,7 +110,7 @@ def _signal(signal: BoardSignal) -> StepSignal:
 
 def _kind(signal: BoardSignal) -> SignalKind:
     if signal.stamp:
-        return SignalKind.CLOCK if signal.name == CLOCK else SignalKind.STAMP
+        return SignalKind.CLOCK if signal.name == NOW else SignalKind.STAMP
     match signal.domain.sort:
         case Bool():
             return SignalKind.BOOL

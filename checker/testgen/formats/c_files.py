@@ -2,9 +2,10 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
-from rovercheck.checker.testgen.scripts import CLOCK
+from rovercheck.checker.results.board_steps import Changes
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -78,17 +79,18 @@ def _tables(board: Board, tests: Sequence[ExpectedTest]) -> Iterator[str]:
     yield f"static const struct test tests[] = {{\n{named}}};\n"
 
 
-def _changes(numbers: Mapping[str, int]) -> Callable[[ExpectedRow], str]:
-    def shown(row: ExpectedRow) -> str:
-        both = {**row.inputs, **row.outputs}
+def _changes(numbers: Mapping[str, int]) -> Callable[[Changes], str]:
+    def shown(row: Changes) -> str:
+        _, inputs, outputs = row
+        both = {**inputs, **outputs}
         cells = ", ".join(f"{{{numbers[name]}, {_number(value)}}}" for name, value in both.items())
         return f"    {cells},\n" if cells else ""
 
     return shown
 
 
-def _counts(found: Sequence[ExpectedRow]) -> str:
-    return " ".join(f"{{{r.held}, {len(r.inputs) + len(r.outputs)}}}," for r in found)
+def _counts(found: Sequence[Changes]) -> str:
+    return " ".join(f"{{{held}, {len(inputs) + len(outputs)}}}," for held, inputs, outputs in found)
 
 
 def _number(value: Value | None) -> str:
@@ -101,7 +103,7 @@ def _apply(board: Board) -> str:
     """C that makes the inputs of a step from the table."""
     lines = []
     for number, signal in enumerate(board.inputs):
-        if signal.name == CLOCK:
+        if signal.name == NOW:
             lines.append(f"    in->{signal.name} = now;")
         elif signal.stamp:
             lines.append(f"    if (at[{number}] != 0.0) in->{signal.name} = now;")

@@ -6,8 +6,8 @@ from io import StringIO
 
 from rovercheck.checker.io.files import csv_cell
 from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest
-from rovercheck.checker.testgen.scripts import CLOCK
 from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.abstraction.stamps import NOW
 
 TIME = "time_ms"
 GOALS = "goals.csv"
@@ -21,11 +21,11 @@ def csv_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:
 
 
 def _table(board: Board, test: ExpectedTest) -> Iterator[list[str]]:
-    inputs = [s.name for s in board.inputs if s.name != CLOCK]
+    inputs = [s.name for s in board.inputs if s.name != NOW]
     outputs = [o.name for o in board.outputs]
     yield [TIME, *map(csv_cell, (*inputs, *outputs))]
     for given, required in zip(test.inputs, test.outputs, strict=True):
-        cells = [given[n] for n in (CLOCK, *inputs)] + [required.get(n) for n in outputs]
+        cells = [given[n] for n in (NOW, *inputs)] + [required.get(n) for n in outputs]
         yield [_cell(value) for value in cells]
 
 

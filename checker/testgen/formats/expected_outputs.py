@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from rovercheck.checker.results.board_steps import Cells, in_rows
 from rovercheck.checker.testgen.scripts import Moment, Script, steps
 from rovercheck.spec_model.abstraction import Board, Value
 from rovercheck.spec_model.lang.interpret import Interpreter
@@ -36,27 +37,9 @@ def required(board: Board, inputs: Sequence[Mapping[str, Value]]) -> Iterator[di
         yield board.expected(charts.data)
 
 
-@dataclass(frozen=True)
-class ExpectedRow:
-    """Equal steps in a row: how many, and what differs from the row before (an open output is None)."""
-
-    held: int
-    inputs: Mapping[str, Value]
-    outputs: Mapping[str, Value | None]
-
-
-def rows(board: Board, test: ExpectedTest) -> list[ExpectedRow]:
+def rows(board: Board, test: ExpectedTest) -> list[tuple[int, Moment, Cells]]:
     """A test as rows; before the first, inputs are at rest and outputs are open."""
-    found: list[ExpectedRow] = []
-    moment: Moment = {s.name: False if s.stamp else s.initial for s in board.inputs}
-    before: Mapping[str, Value | None] = {o.name: None for o in board.outputs}
-    for given, required_ in zip(test.script, test.outputs, strict=True):
-        after = {name: required_.get(name) for name in before}
-        inputs = {name: value for name, value in given.items() if value != moment[name]}
-        outputs = {name: value for name, value in after.items() if value != before[name]}
-        if found and not inputs and not outputs:
-            found[-1] = ExpectedRow(found[-1].held + 1, found[-1].inputs, found[-1].outputs)
-        else:
-            found.append(ExpectedRow(1, inputs, outputs))
-        moment, before = given, after
-    return found
+    inputs: Moment = {s.name: False if s.stamp else s.initial for s in board.inputs}
+    open_: Cells = {o.name: None for o in board.outputs}
+    outputs = ({name: required_.get(name) for name in open_} for required_ in test.outputs)
+    return in_rows(inputs, open_, zip(test.script, outputs, strict=True))

@@ -2,14 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board
-
-OURS = {
-    "board1": "python:rovercheck.supervisor.board1:Board1",
-    "board2": "python:rovercheck.supervisor.board2.board:Board2",
-}
-"""The implementation that is run unless another is named."""
 
 HEAD = '''"""Covering tests of {board}, made by `rovercheck generate-tests`.
 
@@ -66,15 +60,11 @@ def pytest_addoption(parser):
 def pytest_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:
     """The file of tests, and the ``conftest.py`` with its option."""
     name = f"test_cover_{board.name}.py"
-    head = HEAD.format(board=board.name, file=name, ours=OURS[board.name])
+    head = HEAD.format(board=board.name, file=name, ours=board.supervisor)
     return {name: head + "".join(_test(board, t) for t in tests) + TAIL, "conftest.py": CONFTEST}
 
 
 def _test(board: Board, test: ExpectedTest) -> str:
     goals = "".join(f"        # {goal}\n" for goal in test.goals)
-    shown = "".join(f"        {_row(row)},\n" for row in rows(board, test))
+    shown = "".join(f"        {row!r},\n" for row in rows(board, test))
     return f"    {test.name!r}: [\n{goals}{shown}    ],\n"
-
-
-def _row(row: ExpectedRow) -> str:
-    return repr((row.held, dict(row.inputs), dict(row.outputs)))

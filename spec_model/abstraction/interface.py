@@ -1,0 +1,225 @@
+"""The interface of a board as one table: signals, what the charts see of each, where firmware holds it.
+
+The reader and the writer of a board, the decoder of its logs, the places in firmware and the surroundings of
+stimuli are all derived from these rows.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import cached_property
+
+from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Value, Values, computed, units
+from rovercheck.spec_model.abstraction.stamps import NOW, MeanOfTen, Stamp, Updates, age, since
+from rovercheck.spec_model.environment_jitter import step_ms
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TICK_MS
+
+
+class Carriage(StrEnum):
+    """How a signal enters the charts."""
+
+    SAMPLE = "sample"
+    """As it was measured."""
+    AGE = "age"
+    """A stamp as the time since it, in ticks."""
+    ADVANCE = "advance"
+    """A stamp as the ms by which it has advanced since the step before."""
+    UPDATE = "update"
+    """A stamp as whether it is new."""
+    SLOW = "slow"
+    """A stamp as whether the mean of its last ten intervals is too long."""
+
+
+@dataclass(frozen=True)
+class Carried:
+    """A variable of the charts that is made of a signal; ``mean_ms`` is the limit of a slow mean."""
+
+    var: Var
+    how: Carriage
+    mean_ms: int = 0
+
+
+@dataclass(frozen=True)
+class ModelAge:
+    """How systems of the model hold the age of a stamp, from which a run of theirs gets its stamps.
+
+    From ``stops`` on, a raw age stands for all larger ones.  ``ms`` is the age of systems in which a stamp
+    may lie at any ms.
+    """
+
+    var: Var
+    stops: int
+    ms: Var | None = None
+
+
+@dataclass(frozen=True)
+class InputRow:
+    """An input of the firmware.
+
+    ``place`` is where the supervisor of this project holds it, in Python.  ``arrives_with`` names the stamp
+    of what it comes with, "" if it may change in any step.  ``rests_at`` is its value when nothing is wrong,
+    ``in_charge_at`` that when the board also has the motors, each the initial one unless given.
+    """
+
+    signal: BoardSignal
+    place: str
+    carried: tuple[Carried, ...] = ()
+    age: ModelAge | None = None
+    arrives_with: str = ""
+    rests_at: Value | None = None
+    in_charge_at: Value | None = None
+
+    def at(self, place: str) -> "InputRow":
+        """The row with another place than the signal's name."""
+        return replace(self, place=place)
+
+    def inside(self, record: str) -> "InputRow":
+        """The row with its place inside a record of the firmware."""
+        return replace(self, place=f"{record}.{self.place}")
+
+
+@dataclass(frozen=True)
+class OutputRow:
+    """An output of the firmware, and where the supervisor of this project holds it."""
+
+    output: Output
+    place: str
+
+
+def clock() -> InputRow:
+    """The time of the step itself."""
+    signal = BoardSignal.stamped(NOW, "start of the step")
+    return InputRow(signal, signal.name)
+
+
+def sample(signal: BoardSignal, var: Var, arrives_with: str = "", rests_at: Value | None = None) -> InputRow:
+    """A measurement or a message, which the charts see as it is."""
+    return InputRow(signal, signal.name, (Carried(var, Carriage.SAMPLE),), None, arrives_with, rests_at)
+
+
+def stamped(name: str, doc: str, age: ModelAge, *carried: Carried) -> InputRow:
+    """A time stamp, and what the charts see of it."""
+    signal = BoardSignal.stamped(name, doc)
+    return InputRow(signal, name, carried, age)
+
+
+def produced(outputs: Iterator[Output] | tuple[Output, ...], **places: str) -> tuple[OutputRow, ...]:
+    """Rows of outputs, at places of their names unless others are given."""
+    return tuple(OutputRow(o, places.get(o.name, o.name)) for o in outputs)
+
+
+@dataclass(frozen=True)
+class SignalView:
+    """What the charts see of one signal in one way."""
+
+    var: Var
+    how: Carriage
+    signal: BoardSignal
+    mean_ms: int = 0
+
+
+@dataclass(frozen=True)
+class BoardInterface:
+    """The rows of a board, in the order in which inputs and outputs are shown."""
+
+    inputs: tuple[InputRow, ...]
+    outputs: tuple[OutputRow, ...]
+
+    @cached_property
+    def views(self) -> tuple[SignalView, ...]:
+        """All that the charts see: samples, then what is seen of the stamps, one way after the other."""
+        every = [(c, row.signal) for row in self.inputs for c in row.carried]
+        return tuple(
+            SignalView(c.var, c.how, signal, c.mean_ms)
+            for how in Carriage
+            for c, signal in every
+            if c.how is how
+        )
+
+    @cached_property
+    def by_carriage(self) -> Mapping[Carriage, tuple[SignalView, ...]]:
+        """What the charts see in each way."""
+        return {how: tuple(v for v in self.views if v.how is how) for how in Carriage}
+
+    def __deepcopy__(self, memo: object) -> "BoardInterface":
+        """Readers that are copied share their table."""
+        return self
+
+    @cached_property
+    def arrivals(self) -> Mapping[str, tuple[str, ...]]:
+        """What arrives with each stamp."""
+        stamps = dict.fromkeys(row.arrives_with for row in self.inputs if row.arrives_with)
+        return {s: tuple(r.signal.name for r in self.inputs if r.arrives_with == s) for s in stamps}
+
+    @cached_property
+    def resting(self) -> Mapping[str, Value]:
+        """Values when nothing is wrong, of inputs that do not rest at their initial value."""
+        return {r.signal.name: r.rests_at for r in self.inputs if r.rests_at is not None}
+
+    @cached_property
+    def in_charge(self) -> Mapping[str, Value]:
+        """Values when nothing is wrong and the board has the motors, as far as they are not initial."""
+        own = {r.signal.name: r.in_charge_at for r in self.inputs if r.in_charge_at is not None}
+        return {**self.resting, **own}
+
+    def places(self) -> tuple[dict[str, str], dict[str, str]]:
+        """Where the supervisor of this project holds inputs and outputs, by name."""
+        inputs = {r.signal.name: r.place for r in self.inputs}
+        return inputs, {r.output.name: r.place for r in self.outputs}
+
+
+class InterfaceReader:
+    """Ages, updates, gaps and means in place of stamps, and the measurements as they are.
+
+    A step sees an update whenever in the tick before it the stamp was set.
+    """
+
+    def __init__(self, interface: BoardInterface) -> None:
+        self._interface = interface
+        by = interface.by_carriage
+        self._advances = {v.var.name: Updates() for v in by[Carriage.ADVANCE]}
+        self._updates = {v.var.name: Updates() for v in by[Carriage.UPDATE]}
+        self._means = {v.var.name: MeanOfTen(v.mean_ms) for v in by[Carriage.SLOW]}
+
+    def step(self, inputs: Values) -> dict[str, int]:
+        """Raw inputs of the charts.  Raises ``ModelError`` for a value that the charts give no meaning to."""
+        now, by = int(inputs[NOW]), self._interface.by_carriage
+        at = {v.var.name: v.signal.raw(inputs[v.signal.name]) for v in by[Carriage.SAMPLE]}
+        for v in by[Carriage.AGE]:
+            at[v.var.name] = age(now, int(inputs[v.signal.name]))
+        for v in by[Carriage.ADVANCE]:
+            latest = int(inputs[v.signal.name])
+            before = self._advances[v.var.name].step(latest)
+            at[v.var.name] = 0 if before is None else since(latest, before)
+        for v in by[Carriage.UPDATE]:
+            at[v.var.name] = int(self._updates[v.var.name].step(int(inputs[v.signal.name])) is not None)
+        for v in by[Carriage.SLOW]:
+            at[v.var.name] = int(self._means[v.var.name].step(int(inputs[v.signal.name])))
+        return computed(at)
+
+
+class InterfaceWriter:
+    """Stamps in place of ages; a step of the model is one of the board."""
+
+    def __init__(self, interface: BoardInterface) -> None:
+        self._now = 0
+        self._ages = [(r.signal.name, r.age, Stamp()) for r in interface.inputs if r.age is not None]
+        self._samples = [(v.signal, v.var) for v in interface.views if v.how is Carriage.SAMPLE]
+
+    def step(self, at: Mapping[str, int]) -> dict[str, Value]:
+        """The inputs of a step whose state, inputs included, is ``at`` afterwards.
+
+        What the model does not know keeps its initial value.
+        """
+        self._now += at.get(step_ms.name, TICK_MS)
+        inputs: dict[str, Value] = {NOW: self._now}
+        for name, held, stamp in self._ages:
+            if held.ms is not None and held.ms.name in at:
+                inputs[name] = stamp.step(self._now, at[held.ms.name], held.ms.domain.high, 1)
+            else:
+                inputs[name] = stamp.step(self._now, at.get(held.var.name, 0), held.stops)
+        for signal, var in self._samples:
+            known = var.name in at
+            inputs[signal.name] = units(var.domain, at[var.name]) if known else signal.initial
+        return inputs
