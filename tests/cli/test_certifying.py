@@ -108,7 +108,7 @@ def test_what_comes_of_a_certificate_is_shown(
         for heard in honest(*arguments):  # type: ignore[arg-type]
             yield replace(heard, certificate=outcome) if isinstance(heard, Result) else heard
 
-    monkeypatch.setattr("rovercheck.checker.verify.checked.searches", searches)
+    monkeypatch.setattr("rovercheck.checker.verify.searches.searches", searches)
     assert run(["check", "PB1-11"]) == code
     shown = capfd.readouterr()
     assert said in shown.out
