@@ -8,8 +8,10 @@ from enum import StrEnum
 class Need(StrEnum):
     """What must be worked out before a thing is written in a format."""
 
-    BOARD_STEPS = "the run as the boards see it"
-    STATE_RUNS = "a run to every state"
+    BOARD_STEPS = "board steps"
+    """The run as the boards see it."""
+    STATE_RUNS = "state runs"
+    """A run to every state."""
 
 
 class Option(StrEnum):

@@ -60,14 +60,10 @@ def _save(explorer: Explorer, rest: str) -> None:
     from rovercheck.checker.render import renderers
 
     known = renderers("trace")
-    formats = {e.FORMAT.suffix: name for name, e in reversed(known.items())} | {
-        ".html": "html",
-        ".svg": "svg",
-    }
+    suffixes = {name: one.FORMAT.suffix for name, one in known.items()}
+    formats = {s: name for name, s in reversed(suffixes.items())} | {".html": "html", ".svg": "svg"}
     found = [name for suffix, name in formats.items() if target.name.endswith(suffix) and suffix != ".txt"]
-    format = (
-        words[1] if len(words) == 2 else max(found, key=lambda n: len(known[n].FORMAT.suffix), default="")
-    )
+    format = words[1] if len(words) == 2 else max(found, key=lambda n: len(suffixes[n]), default="")
     if not format:
         known_suffixes = ", *".join(sorted(formats))
         raise RefusedInput(f"No format has files like {words[0]}; write one of *{known_suffixes}.")

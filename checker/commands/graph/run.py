@@ -243,9 +243,9 @@ def _trace(prop: Property, systems: Mapping[str, System]) -> Trace | None:
 
 def _shown(found: BuiltGraph, trace: Trace | None, renderer: Renderer, view: View) -> StateGraph:
     """The graph with all that the format shows."""
-    ways = Need.STATE_RUNS in renderer.FORMAT.needs and not view.summary
-    ways = ways and len(found.graph.nodes) <= view.most
-    graph = found.with_ways() if ways else found.graph
+    needed = Need.STATE_RUNS in renderer.FORMAT.needs and not view.summary
+    few = len(found.graph.nodes) <= view.most
+    graph = found.with_ways() if needed and few else found.graph
     return with_trace(graph, trace) if trace else graph
 
 
