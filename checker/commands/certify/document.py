@@ -19,7 +19,7 @@ class CertificateRow(TypedDict):
     """The file of certificates, as it was named."""
 
 
-class AcceptedRow(CertificateRow):
+class AcceptedCertificate(CertificateRow):
     """A proof whose every obligation is met."""
 
     outcome: Literal["accepted"]
@@ -29,7 +29,7 @@ class AcceptedRow(CertificateRow):
     """Who showed every obligation."""
 
 
-class RejectedRow(CertificateRow):
+class RejectedCertificate(CertificateRow):
     """A certificate that proves nothing."""
 
     outcome: Literal["rejected"]
@@ -41,7 +41,7 @@ class RejectedRow(CertificateRow):
     """What shows that."""
 
 
-class UndecidedRow(CertificateRow):
+class UndecidedCertificate(CertificateRow):
     """Neither could be shown."""
 
     outcome: Literal["undecided"]
@@ -57,7 +57,7 @@ class CertifyDocument(TypedDict):
     exit: Exit
     files: Count
     """Files of certificates that were read."""
-    properties: list[AcceptedRow | RejectedRow | UndecidedRow]
+    properties: list[AcceptedCertificate | RejectedCertificate | UndecidedCertificate]
 
 
 def document(found: Sequence[DerivedVerdict], count: int, code: Exit) -> CertifyDocument:
@@ -71,7 +71,7 @@ def document(found: Sequence[DerivedVerdict], count: int, code: Exit) -> Certify
     }
 
 
-def _row(one: DerivedVerdict) -> AcceptedRow | RejectedRow | UndecidedRow:
+def _row(one: DerivedVerdict) -> AcceptedCertificate | RejectedCertificate | UndecidedCertificate:
     row: CertificateRow = {"id": one.id, "file": one.file}
     match one.outcome:
         case Accepted(how):

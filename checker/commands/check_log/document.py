@@ -55,7 +55,7 @@ class LogVerdictRow(TypedDict):
     first: NotRequired[FirstRow]
 
 
-class DifferenceRow(TypedDict):
+class LoggedDifference(TypedDict):
     """An output that is not as the charts require."""
 
     output: str
@@ -73,7 +73,7 @@ class DeviationRow(TypedDict):
     last_tick: Ordinal
     ticks: Ordinal
     times: Ordinal
-    differences: list[DifferenceRow]
+    differences: list[LoggedDifference]
     charts: list[str]
     inputs: dict[str, str]
 
@@ -242,7 +242,7 @@ def _deviation(one: Deviation) -> DeviationRow:
     }
 
 
-def _difference(output: str, expected: list[str], logged: str) -> DifferenceRow:
+def _difference(output: str, expected: list[str], logged: str) -> LoggedDifference:
     return {"output": output, "expected": expected, "logged": logged}
 
 

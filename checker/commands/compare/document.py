@@ -43,7 +43,7 @@ class StageRow(TypedDict):
     """Why not all, if not all."""
 
 
-class OutputRow(TypedDict):
+class DifferingOutput(TypedDict):
     """An output that is not as the charts require."""
 
     output: str
@@ -60,7 +60,7 @@ class MismatchRow(TypedDict):
     small: bool
     """Whether the run was made as small as it can be made."""
     inputs: dict[str, Value]
-    differences: list[OutputRow]
+    differences: list[DifferingOutput]
     arrows: list[str]
     """The transitions that the charts took in the step."""
     test: str

@@ -91,7 +91,7 @@ class AssumptionRow(TypedDict):
     systems: list[str]
 
 
-class InterpretationRow(TypedDict):
+class InterpretationItem(TypedDict):
     """A sentence of the document with several meanings."""
 
     id: Text
@@ -161,7 +161,7 @@ SystemList = ListOf[Literal["systems"], SystemRow]
 ChartList = ListOf[Literal["charts"], ChartRow]
 RequirementList = ListOf[Literal["requirements"], RequirementItem]
 AssumptionList = ListOf[Literal["assumptions"], AssumptionRow]
-InterpretationList = ListOf[Literal["readings"], InterpretationRow]
+InterpretationList = ListOf[Literal["readings"], InterpretationItem]
 RepairList = ListOf[Literal["repairs"], RepairRow]
 EngineList = ListOf[Literal["engines"], EngineRow]
 FormatList = ListOf[Literal["formats"], FormatRow]
@@ -290,7 +290,7 @@ def _assumptions(model: Model) -> list[AssumptionRow]:
     return [{"id": id, "text": text, "systems": names} for (id, text), names in holders.items()]
 
 
-def _interpretations() -> list[InterpretationRow]:
+def _interpretations() -> list[InterpretationItem]:
     return [
         {
             "id": one.id,

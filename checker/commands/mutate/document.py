@@ -14,7 +14,7 @@ from rovercheck.checker.mutate.fate import Fate
 from rovercheck.checker.mutate.observation import AllowedBy, MutantDifference
 
 
-class DifferenceRow(TypedDict):
+class TellingRun(TypedDict):
     """A run after whose last tick the mutant is seen to differ; all values as people read them."""
 
     inputs: Annotated[list[dict[str, str]], MinLen(1)]
@@ -54,7 +54,7 @@ class MutantRow(TypedDict):
     """The proof, or the reason of what is not known."""
     properties_decided: Count
     properties_open: Count
-    difference: DifferenceRow | None
+    difference: TellingRun | None
 
 
 class MutateDocument(TypedDict):
@@ -116,7 +116,7 @@ def _row(one: One) -> MutantRow:
     }
 
 
-def _difference(found: MutantDifference) -> DifferenceRow:
+def _difference(found: MutantDifference) -> TellingRun:
     return {
         "inputs": [dict(tick) for tick in found.inputs],
         "frozen": dict(found.frozen),

@@ -21,7 +21,7 @@ class CoveringRow(TypedDict):
     """False where it only shows that a situation is reached."""
 
 
-class RequirementRow(TypedDict):
+class RequirementStatus(TypedDict):
     """A requirement, and what is known of it."""
 
     id: Text
@@ -45,7 +45,7 @@ class RequirementsDocument(TypedDict):
     verdicts: str
     """Where the verdicts are from."""
     exit: Exit
-    requirements: list[RequirementRow]
+    requirements: list[RequirementStatus]
 
 
 def document(
@@ -60,7 +60,7 @@ def document(
     }
 
 
-def _row(row: RequirementCoverage, verdicts: Verdicts) -> RequirementRow:
+def _row(row: RequirementCoverage, verdicts: Verdicts) -> RequirementStatus:
     item = row.requirement
     return {
         "id": item.id,
