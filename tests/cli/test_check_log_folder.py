@@ -15,7 +15,7 @@ from rovercheck.checker.commands.check_log import run as conforming
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.logs import LogResult, examine
 from rovercheck.spec_model.abstraction import boards
-from tests.conform.recorded import Row, copied, long_log, written
+from tests.logs.recorded import Row, copied, long_log, written
 from tests.schemas import published
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"

@@ -15,7 +15,7 @@ from rovercheck.checker.compare import check, recorded_runs
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.search import Run
 from rovercheck.spec_model.abstraction import boards
-from tests.conform import cross_faults
+from tests.compare import cross_faults
 from tests.schemas import published
 
 FAULTS = Path(cross_faults.__file__)
@@ -24,7 +24,7 @@ WIDTH = 80
 
 @pytest.fixture(autouse=True)
 def _on_counterexamples_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On the recorded counterexamples and the tests of a folder; tests/conform has the other runs."""
+    """On the recorded counterexamples and the tests of a folder; tests/compare has the other runs."""
 
     def known(env: Environment, folder: Path | None) -> Iterator[Run]:
         yield from recorded_runs.counterexamples(env.board)

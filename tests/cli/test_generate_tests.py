@@ -15,8 +15,8 @@ from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.fingerprint import fingerprint
 from rovercheck.checker.testgen.generate import Aim
 from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
-from tests.conform.cover_toys import SYSTEM, TOY
 from tests.schemas import published
+from tests.testgen.cover_toys import SYSTEM, TOY
 
 SCHEMA: Any = published("testgen-1")
 

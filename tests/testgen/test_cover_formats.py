@@ -14,7 +14,7 @@ from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest, ex
 from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.testgen.scripts import Script, unfolded
 from rovercheck.spec_model.abstraction import boards
-from tests.conform.cover_toys import TOY
+from tests.testgen.cover_toys import TOY
 
 LAMP = """
 #include "cover_toy.h"

@@ -21,8 +21,8 @@ from rovercheck.checker.compare.search import CompareSearch, Run
 from rovercheck.checker.compare.smaller import Budget, smaller
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.spec_model.abstraction import boards
-from tests.conform import cross_faults
-from tests.conform.cross_faults import FAULTS
+from tests.compare import cross_faults
+from tests.compare.cross_faults import FAULTS
 from tests.faults import FaultSuite
 
 EXAMPLES = {"board1": 5, "board2": 10}
