@@ -6,9 +6,9 @@ board has one, and is looked for where everything that does not matter to it sta
 
 from dataclasses import replace
 
-from rovercheck.spec_model import environment_board2 as env2
 from rovercheck.spec_model.board1.systems import board1
 from rovercheck.spec_model.board2.supervisor_systems import board2
+from rovercheck.spec_model.environment import board2 as env2
 from rovercheck.spec_model.lang.expr import Expr, all_of
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.signals import board1 as b1

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.model.kept_runs import KeptRun
@@ -11,9 +10,6 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.expected import Expected
-
-if TYPE_CHECKING:
-    pass
 
 
 @dataclass(frozen=True)

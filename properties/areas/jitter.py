@@ -26,7 +26,7 @@ from rovercheck.properties.forms import (
 from rovercheck.properties.past import STEPPED
 from rovercheck.spec_model.board2.jitter_systems import b1_sup_age_ms
 from rovercheck.spec_model.board2.obstacles import drawn_n
-from rovercheck.spec_model.environment_jitter import in_a_row, rx_lag, step_ms
+from rovercheck.spec_model.environment.jitter import in_a_row, rx_lag, step_ms
 from rovercheck.spec_model.lang.expr import Expr, all_of, const, implies, ite
 from rovercheck.spec_model.lang.time import Span, ms, sec
 from rovercheck.spec_model.lang.words import held, minimum, named, once, previous

@@ -8,7 +8,7 @@ from rovercheck.properties.document.distances import within
 from rovercheck.properties.forms import always, enters_only_if, holds_after, leaves_only_if, never, responds
 from rovercheck.spec_model.board2.obstacles import drawn_n as chart
 from rovercheck.spec_model.board2.systems import targetAngle, yaw
-from rovercheck.spec_model.environment2 import echo
+from rovercheck.spec_model.environment.sonars import echo
 from rovercheck.spec_model.lang.expr import all_of, any_of, implies
 from rovercheck.spec_model.lang.time import sec, tick, ticks
 from rovercheck.spec_model.lang.words import held, named, previous, wrap

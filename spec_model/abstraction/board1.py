@@ -14,7 +14,7 @@ from rovercheck.spec_model.abstraction.interface import (
 )
 from rovercheck.spec_model.abstraction.signals import discrete, measured, outputs
 from rovercheck.spec_model.board1 import SUPERVISOR
-from rovercheck.spec_model.environment import check_stop
+from rovercheck.spec_model.environment.board1 import check_stop
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TICK_MS, in_order
 from rovercheck.spec_model.signals import board1 as b1

@@ -11,7 +11,7 @@ from functools import cached_property
 
 from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Value, Values, computed, units
 from rovercheck.spec_model.abstraction.stamps import NOW, MeanOfTen, Stamp, Updates, age, since
-from rovercheck.spec_model.environment_jitter import step_ms
+from rovercheck.spec_model.environment.jitter import step_ms
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TICK_MS
 

@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 
-from rovercheck.spec_model import environment_fine as env
 from rovercheck.spec_model.board1 import SUPERVISOR, supervisor
 from rovercheck.spec_model.board1.heartbeat import heartbeat_monitor, monitor_heartbeat
 from rovercheck.spec_model.board1.reception import reception_monitor
 from rovercheck.spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
 from rovercheck.spec_model.board1.wheels import monitor_wheels
-from rovercheck.spec_model.environment import reception_clock
+from rovercheck.spec_model.environment import milliseconds as env
+from rovercheck.spec_model.environment.board1 import reception_clock
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board1_fine as fine

@@ -1,6 +1,5 @@
 """Board 1 where its steps last 19 to 21 ms: links, relay, what is held for seconds, the stop."""
 
-from rovercheck.spec_model import environment_jitter as env
 from rovercheck.spec_model.board1.battery import monitor_battery
 from rovercheck.spec_model.board1.fine_systems import ALIKE_INTERVALS
 from rovercheck.spec_model.board1.heartbeat import heartbeat_monitor
@@ -8,7 +7,8 @@ from rovercheck.spec_model.board1.reception import reception_monitor
 from rovercheck.spec_model.board1.relay import relay
 from rovercheck.spec_model.board1.systems import FEW_VALUES, FREE_STATUSES, references_executed
 from rovercheck.spec_model.board1.temperature import monitor_temperature
-from rovercheck.spec_model.environment import battery_readings, check_stop, temperature_readings
+from rovercheck.spec_model.environment import jitter as env
+from rovercheck.spec_model.environment.board1 import battery_readings, check_stop, temperature_readings
 from rovercheck.spec_model.lang.expr import all_of, implies
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.signals import board1 as b1

@@ -4,7 +4,6 @@ A chart alone with free inputs has every run it has inside the board, and perhap
 of it holds in the board too, and a counterexample counts when the board has one as well.
 """
 
-from rovercheck.spec_model import environment as env
 from rovercheck.spec_model.board1 import SUPERVISOR, computed, references, safety_computed
 from rovercheck.spec_model.board1.backward import toggle
 from rovercheck.spec_model.board1.battery import monitor_battery
@@ -18,6 +17,7 @@ from rovercheck.spec_model.board1.relay import relay
 from rovercheck.spec_model.board1.safety import safety_state
 from rovercheck.spec_model.board1.temperature import monitor_temperature
 from rovercheck.spec_model.board1.wheels import monitor_wheels
+from rovercheck.spec_model.environment import board1 as env
 from rovercheck.spec_model.lang.chart import Enabled
 from rovercheck.spec_model.lang.system import Note, System, in_order
 from rovercheck.spec_model.records import arrival_window, slow_record

@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-from rovercheck.spec_model import environment_board2 as board2_env
-from rovercheck.spec_model import environment_jitter as env
 from rovercheck.spec_model.board2.classify import process_masks
 from rovercheck.spec_model.board2.failure_check import check_board1
 from rovercheck.spec_model.board2.monitor_systems import FORGOTTEN
@@ -13,7 +11,9 @@ from rovercheck.spec_model.board2.motion_systems import COMES_BEFORE, FREE_BACKW
 from rovercheck.spec_model.board2.obstacles import obstacles_n
 from rovercheck.spec_model.board2.slow2 import Record, exact_ms, forgotten
 from rovercheck.spec_model.board2.systems import AS_DRAWN, FREE_HEADING, TURNS
-from rovercheck.spec_model.environment_fine import clock
+from rovercheck.spec_model.environment import board2 as board2_env
+from rovercheck.spec_model.environment import jitter as env
+from rovercheck.spec_model.environment.milliseconds import clock
 from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rovercheck.spec_model import environment_board2 as env
 from rovercheck.spec_model.board2.monitors import RECORDS, monitor_sources, monitors
 from rovercheck.spec_model.board2.slow2 import Record, exact, forgotten, mean_slow, runs
-from rovercheck.spec_model.environment import clock
+from rovercheck.spec_model.environment import board2 as env
+from rovercheck.spec_model.environment.board1 import clock
 from rovercheck.spec_model.lang.chart import Component
 from rovercheck.spec_model.lang.expr import Var, all_of
 from rovercheck.spec_model.lang.system import Note, System, in_order

@@ -6,7 +6,6 @@ The obstacle charts and the motion charts have systems of their own.
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rovercheck.spec_model import environment_board2 as env
 from rovercheck.spec_model.board2 import ACTUATION, acquisition, coherence, supervisor
 from rovercheck.spec_model.board2.classify import process_masks
 from rovercheck.spec_model.board2.failure_check import check_board1
@@ -20,8 +19,9 @@ from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
 from rovercheck.spec_model.board2.safety import safety_state_2
 from rovercheck.spec_model.board2.selection import selection
 from rovercheck.spec_model.board2.slow2 import exact, forgotten, gaps_of
-from rovercheck.spec_model.environment2 import scanned
-from rovercheck.spec_model.environment_fine import CONSTANT_PHASE
+from rovercheck.spec_model.environment import board2 as env
+from rovercheck.spec_model.environment.milliseconds import CONSTANT_PHASE
+from rovercheck.spec_model.environment.sonars import scanned
 from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled

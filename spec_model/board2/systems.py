@@ -4,7 +4,7 @@ from rovercheck.spec_model.board2.heading import headings, measured
 from rovercheck.spec_model.board2.obstacles import WINDOWS, obstacles_n
 from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
 from rovercheck.spec_model.board2.selection import selection
-from rovercheck.spec_model.environment2 import scan_phase, sonar_scan, turns_as_told
+from rovercheck.spec_model.environment.sonars import scan_phase, sonar_scan, turns_as_told
 from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.chart import Chart, Component
 from rovercheck.spec_model.lang.expiry import free_timers

@@ -8,9 +8,6 @@ that it rests on (``localisation``), and holds in every weather.
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 
-from rovercheck.spec_model import environment as env1
-from rovercheck.spec_model import environment_board2 as env2
-from rovercheck.spec_model import environment_fine as fine
 from rovercheck.spec_model.board1 import LINKS
 from rovercheck.spec_model.board1 import supervisor as supervisor_1
 from rovercheck.spec_model.board1.fine_systems import LINKS_MS
@@ -18,6 +15,9 @@ from rovercheck.spec_model.board2 import supervisor as supervisor_2
 from rovercheck.spec_model.board2.heading import measured
 from rovercheck.spec_model.board2.supervisor_systems import targetAngle
 from rovercheck.spec_model.composition.systems import ENVIRONMENT, SYNCHRONOUS, in_turn
+from rovercheck.spec_model.environment import board1 as env1
+from rovercheck.spec_model.environment import board2 as env2
+from rovercheck.spec_model.environment import milliseconds as fine
 from rovercheck.spec_model.lang.chart import Block, Component
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import System, in_order

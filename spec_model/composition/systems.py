@@ -3,8 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from rovercheck.spec_model import environment as env1
-from rovercheck.spec_model import environment_board2 as env2
 from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.board1 import SUPERVISOR as SUPERVISOR_1
 from rovercheck.spec_model.board1 import references
@@ -24,6 +22,8 @@ from rovercheck.spec_model.composition.motors import (
     stop_1,
     stop_2,
 )
+from rovercheck.spec_model.environment import board1 as env1
+from rovercheck.spec_model.environment import board2 as env2
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expr import Var, all_of, any_of, implies, ite

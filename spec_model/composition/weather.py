@@ -9,8 +9,6 @@ a link, and the data of a sensor, come at a phase to the steps that nobody knows
 
 from collections.abc import Mapping, Sequence
 
-from rovercheck.spec_model import environment_board2 as env2
-from rovercheck.spec_model import environment_fine as fine
 from rovercheck.spec_model.board2.coherence import COHERENCE
 from rovercheck.spec_model.composition.link import all_frames_arrive
 from rovercheck.spec_model.composition.rover_ms import Stamped
@@ -29,6 +27,8 @@ from rovercheck.spec_model.composition.world import (
     which,
     world,
 )
+from rovercheck.spec_model.environment import board2 as env2
+from rovercheck.spec_model.environment import milliseconds as fine
 from rovercheck.spec_model.lang.action import Action, assign
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import enumeration

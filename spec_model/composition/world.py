@@ -7,11 +7,11 @@ name works, is as usual, and changes with nothing.
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from rovercheck.spec_model import environment_board2 as env2
 from rovercheck.spec_model.composition.link import ARRIVAL
 from rovercheck.spec_model.composition.motors import connected, motors_zero, power_lost, stop_1, stop_2
 from rovercheck.spec_model.composition.rover_ms import RX_1
 from rovercheck.spec_model.composition.systems import link12, link21
+from rovercheck.spec_model.environment import board2 as env2
 from rovercheck.spec_model.lang.action import Action, Assign, assign
 from rovercheck.spec_model.lang.domain import enumeration
 from rovercheck.spec_model.lang.expr import Const, Expr, Var, flag, ite, member, var

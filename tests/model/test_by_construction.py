@@ -13,7 +13,7 @@ from rovercheck.spec_model.board1 import REFERENCES, SUPERVISOR, monitors
 from rovercheck.spec_model.board1.masks import COMPONENTS
 from rovercheck.spec_model.board2.acquisition import axis_x, axis_y, ble_task, button1, button2
 from rovercheck.spec_model.board2.obstacles import WINDOWS
-from rovercheck.spec_model.environment import received_payload
+from rovercheck.spec_model.environment.board1 import received_payload
 from rovercheck.spec_model.lang.action import Send, each_action
 from rovercheck.spec_model.lang.chart import State, Transition, parts
 from rovercheck.spec_model.lang.domain import Num

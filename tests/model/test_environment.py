@@ -3,7 +3,7 @@
 import pytest
 
 from rovercheck.spec_model.ambiguity import fixed
-from rovercheck.spec_model.environment import (
+from rovercheck.spec_model.environment.board1 import (
     battery_readings,
     heartbeat_clock,
     reception_clock,

@@ -5,7 +5,7 @@ from itertools import accumulate, pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rovercheck.spec_model.environment_jitter import JITTER
+from rovercheck.spec_model.environment.jitter import JITTER
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.rover import systems
 from rovercheck.spec_model.signals import board2_supervisor as b2

@@ -9,7 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.spec_model.ambiguity import fixed
-from rovercheck.spec_model.environment_fine import heartbeat_record, reception_any_mean, reception_record
+from rovercheck.spec_model.environment.milliseconds import (
+    heartbeat_record,
+    reception_any_mean,
+    reception_record,
+)
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import TICK_MS, in_order

@@ -15,7 +15,7 @@ from rovercheck.checker.encode.bitvector import Encoder, Term
 from rovercheck.checker.encode.invariants import TemplateCube
 from rovercheck.checker.encode.simulate import Simulator
 from rovercheck.checker.encode.unrolling import Unrolling, literal, satisfiable
-from rovercheck.checker.engines.kinduction.ticks import Scope, TickReading, Ticks
+from rovercheck.checker.engines.kinduction.ticks import Scope, StartAndInputs, Ticks
 from rovercheck.checker.system.arrays import ArrayProgram, Columns
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
@@ -36,7 +36,7 @@ class Consecution:
         self._after = Encoder(self._ticks.valuation(1))
         self._scope = scope
         self._known: dict[str, Expr] = {}
-        self._struck: list[tuple[TickReading, Term]] = []
+        self._struck: list[tuple[StartAndInputs, Term]] = []
 
     @cached_property
     def _simulator(self) -> Simulator:
@@ -64,7 +64,7 @@ class Consecution:
 
     def cubes(self, most: int) -> list[TemplateCube]:
         """The last counterexamples that struck out candidates of the last growth, made general."""
-        return [self._ticks.cube(interpretation, term) for interpretation, term in self._struck[-most:]]
+        return [self._ticks.cube(found, term) for found, term in self._struck[-most:]]
 
     def support(self, needed: Iterable[Expr]) -> list[Expr]:
         """The known conjuncts that make the needed ones, known themselves, inductive together."""
@@ -87,21 +87,21 @@ class Consecution:
         raise ArithmeticError(f"`{conjunct}` was inductive and no longer is")
 
     def _survivors(self, alive: dict[str, Expr]) -> dict[str, Expr]:
-        model, interpretation = self._ticks.solver.model(), self._ticks.ambiguity()
-        kept = {id(c) for c in unbroken(list(alive.values()), self._runs(interpretation))}
+        model, found = self._ticks.solver.model(), self._ticks.start_and_inputs()
+        kept = {id(c) for c in unbroken(list(alive.values()), self._runs(found))}
         if len(kept) == len(alive):
             raise ArithmeticError("Z3 and the simulation disagree about a tick")
         refuted = (self._refuted(c) for c in alive.values() if id(c) not in kept)
-        self._struck.append((interpretation, next(t for t in refuted if z3.is_true(model.eval(t, True)))))
+        self._struck.append((found, next(t for t in refuted if z3.is_true(model.eval(t, True)))))
         return {name: c for name, c in alive.items() if id(c) in kept}
 
     def _refuted(self, conjunct: Expr) -> Term:
         return z3.Not(self._after(conjunct))
 
-    def _runs(self, interpretation: TickReading) -> Columns:
+    def _runs(self, found: StartAndInputs) -> Columns:
         """States on random runs from the one of a model, the tick in the model among them."""
-        start = self._simulator.everywhere(interpretation.start)
-        return self._simulator.run(start, _TICKS, interpretation.inputs[0]).samples()
+        start = self._simulator.everywhere(found.start)
+        return self._simulator.run(start, _TICKS, found.inputs[0]).samples()
 
 
 def of_given(scope: Scope, candidates: Sequence[Expr]) -> Consecution:

@@ -62,7 +62,7 @@ def induction(
         if not ticks.sat(ticks.mark(hit), *map(z3.Bool, literals)):
             return InductionStep(length, tuple(literals[name] for name in ticks.core(literals)), simple)
         if length == window:
-            cube = ticks.cube(ticks.ambiguity(), hit)
+            cube = ticks.cube(ticks.start_and_inputs(), hit)
         ticks.solver.add(z3.Not(hit))
     return cube
 

@@ -63,30 +63,30 @@ class Ticks(Unrolling):
         """The literals among those given that the last query, which had no model, rests on."""
         return [str(c) for c in self.solver.unsat_core() if str(c) in literals]
 
-    def ambiguity(self) -> "TickReading":
+    def start_and_inputs(self) -> "StartAndInputs":
         """The first state in the model and the inputs of every tick."""
         model = self.solver.model()
         given = tuple(values(model, self.inputs(t + 1)) for t in range(len(self)))
-        return TickReading(values(model, self.valuation(0)), given)
+        return StartAndInputs(values(model, self.valuation(0)), given)
 
-    def cube(self, interpretation: "TickReading", reached: Term) -> TemplateCube:
-        """The first state of a reading, and those of its variables that make the term true."""
+    def cube(self, found: "StartAndInputs", reached: Term) -> TemplateCube:
+        """The first state found, and those of its variables that make the term true."""
         given = [
             _equal(self.inputs(tick)[name], raw)
-            for tick, at in enumerate(interpretation.inputs, 1)
+            for tick, at in enumerate(found.inputs, 1)
             for name, raw in at.items()
         ]
         first = self.valuation(0)
-        named = {str(self.mark(_equal(first[n], raw))): n for n, raw in interpretation.start.items()}
+        named = {str(self.mark(_equal(first[n], raw))): n for n, raw in found.start.items()}
         query = self.mark(z3.And(z3.Not(reached), *given))
         if self.sat(query, *map(z3.Bool, named)):
             raise ArithmeticError("Z3 gave a model that is none")
         names = {named[str(c)] for c in self.solver.unsat_core() if str(c) in named}
-        return TemplateCube(interpretation.start, frozenset(names))
+        return TemplateCube(found.start, frozenset(names))
 
 
 @dataclass(frozen=True)
-class TickReading:
+class StartAndInputs:
     """What determines the ticks of a model: the first state, frozen values too, and the inputs."""
 
     start: Mapping[str, int]

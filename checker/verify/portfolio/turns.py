@@ -22,8 +22,6 @@ from rovercheck.checker.verify.runs.domains import stray
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
-# --- engines in turn -----------------------------------------------------------------------------------
-
 # --- recorded proofs, tried before anything is searched -----------------------------------------------
 
 

@@ -1,14 +1,14 @@
 """What sensors, link and clock may do to Board 2: ages of the four stamps, and data that change with them.
 
-As in ``environment``: an update seen in a step carries the time of that step (20 ms grid), time 0 is
+As in ``environment.board1``: an update seen in a step carries the time of that step (20 ms grid), time 0 is
 power-up with all stamps 0, and the first step is at 20 ms.  A datum changes only with its stamp.
 """
 
 from collections.abc import Sequence
 
-from rovercheck.spec_model import environment_fine
 from rovercheck.spec_model.ambiguity import under
-from rovercheck.spec_model.environment import clock
+from rovercheck.spec_model.environment import milliseconds
+from rovercheck.spec_model.environment.board1 import clock
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.expr import Const, Var, implies
@@ -22,7 +22,7 @@ def clocks_of(sources: Sequence[b2.SourceSignals]) -> tuple[Block, ...]:
     return tuple(
         clock(f"{s.region}.age", s.update, s.age)
         if s.phase is None
-        else environment_fine.clock(f"{s.region}.age", s.update, s.phase, s.age)
+        else milliseconds.clock(f"{s.region}.age", s.update, s.phase, s.age)
         for s in sources
     )
 

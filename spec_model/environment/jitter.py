@@ -7,7 +7,7 @@ and what a monitor of Table 2 holds for seconds are differences of time stamps, 
 
 from dataclasses import replace
 
-from rovercheck.spec_model.environment_fine import clock
+from rovercheck.spec_model.environment.milliseconds import clock
 from rovercheck.spec_model.intervals import Arrivals, any_mean, interval_record
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.chart import Block

@@ -33,11 +33,11 @@ def clock(name: str, update: Var, age: Var) -> Block:
     return Block(name, [when(update, [assign(age, 0)], [grow])], text=f"Time since {update.name}.")
 
 
-def measurement(name: str, update: Var, ambiguity: Var, value: Var, age: Var, older: Expr) -> Block:
+def measurement(name: str, update: Var, reading: Var, value: Var, age: Var, older: Expr) -> Block:
     """A datum of a snapshot with its age, else one step ``older``: an update replaces the value."""
     return Block(
         name,
-        [when(update, [assign(value, ambiguity), assign(age, 0)], [assign(age, older)])],
+        [when(update, [assign(value, reading), assign(age, 0)], [assign(age, older)])],
         text=f"{value.name} keeps the last valid reading.",
     )
 

@@ -1,0 +1,1 @@
+"""What surrounds the boards: sensors, links and clocks, as blocks that execute before the charts."""
