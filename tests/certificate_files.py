@@ -7,7 +7,7 @@ from typing import Any
 
 from rovercheck.checker.certify.file import CertificateOrigin, write
 from rovercheck.checker.certify.record import Recorder, certified
-from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines import Limits
 from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.checker.verify.portfolio import Callbacks as Listeners
 from rovercheck.properties.catalogue import under
@@ -25,7 +25,7 @@ def written(folder: Path, *ids: str, interpretations: dict[str, str] | None = No
     task = Task(by_name[properties[0].on], properties)
     recorder = Recorder()
     told = Listeners(on_answer=recorder.answered)
-    results = list(decide(task, by_name, Naive(), Limits(), quiet, told))
+    results = list(decide(task, by_name, Naive(), Limits(), told))
     proved = certified({r.property.id: r.verdict for r in results}, recorder.made)
     return write(
         folder, CertificateOrigin(task.system.name, ids, proved, interpretations or {}), recorder.made

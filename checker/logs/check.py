@@ -15,7 +15,7 @@ from rovercheck.checker.logs.invalid import Invalid
 from rovercheck.checker.logs.log import Cells, Log, LogBlock, LogLayout, open_log
 from rovercheck.checker.logs.mapping import ColumnMap
 from rovercheck.checker.logs.mismatch import LogMismatch
-from rovercheck.checker.logs.monitors import LogMonitors, Verdict
+from rovercheck.checker.logs.monitors import LogMonitors, LogVerdict
 from rovercheck.checker.logs.reference import LogReference, as_drawn
 from rovercheck.checker.logs.selection import PropertySelection
 from rovercheck.checker.logs.tracker import TrackedRow, Tracker, UndecidedRow
@@ -212,13 +212,13 @@ class LogResult:
     start: str
     missing: int
     gaps: tuple[Gap, ...]
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[LogVerdict, ...]
     choice: PropertySelection
     behaviour: Behaviour
     invalid: Invalid
 
     @property
-    def unexpected(self) -> tuple[Verdict, ...]:
+    def unexpected(self) -> tuple[LogVerdict, ...]:
         """Properties broken though expected to be true, or reached though expected not to be."""
         return tuple(v for v in self.verdicts if v.count and not as_on_record(v))
 
@@ -237,7 +237,7 @@ class LogResult:
         return self.ticks * TICK_MS / 1000
 
 
-def as_on_record(verdict: Verdict) -> bool:
+def as_on_record(verdict: LogVerdict) -> bool:
     """Whether what was met in the log is what the baseline leads to expect."""
     violated = verdict.expected == "violated"
     return not violated if isinstance(verdict.prop.form, Reachable) else violated
@@ -302,7 +302,7 @@ class _Run:
             self._log.invalid,
         )
 
-    def _on_record(self, verdict: Verdict) -> Verdict:
+    def _on_record(self, verdict: LogVerdict) -> LogVerdict:
         verdict.expected = self._against.expected(verdict.prop.id)
         return verdict
 

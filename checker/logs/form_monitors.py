@@ -15,7 +15,7 @@ from rovercheck.checker.logs.formula import (
     FOREVER,
     Array,
     FormulaRows,
-    Past,
+    LogPast,
     PastWord,
     run_lengths,
     seen,
@@ -68,7 +68,7 @@ class Judge:
     """
 
     property: Property
-    past: Past = field(default_factory=Past)
+    past: LogPast = field(default_factory=LogPast)
     rows: int = 0
     states: dict[tuple[str, int], tuple[Any, Any]] = field(default_factory=dict)
 

@@ -28,7 +28,7 @@ PastWord = Callable[..., tuple[Array, Any]]
 
 
 @dataclass
-class Past:
+class LogPast:
     """What formulas about the past remember between the rows of one stretch of a log.
 
     After a gap nothing is remembered: ``blank`` rows, counted from the next one, cannot be judged.
@@ -79,19 +79,19 @@ class FormulaRows:
     rounded: frozenset[str] = frozenset()
     known: dict[tuple[int, int], Array] = field(default_factory=dict)
 
-    def value(self, expr: Expr, past: Past) -> Array:
+    def value(self, expr: Expr, past: LogPast) -> Array:
         """The formula in every row; each is computed once, one about the past once for each past."""
         key = (id(past) if past.speaks_in(expr) else 0, id(expr))
         if key not in self.known:
             self.known[key] = self._compute(expr, past)
         return self.known[key]
 
-    def truth(self, expr: Expr, past: Past) -> Array:
+    def truth(self, expr: Expr, past: LogPast) -> Array:
         """The truth of a formula in every row."""
         found = np.broadcast_to(self.value(expr, past), (self.count,))
         return found if found.dtype == np.bool_ else found != 0
 
-    def _compute(self, expr: Expr, past: Past) -> Array:
+    def _compute(self, expr: Expr, past: LogPast) -> Array:
         match expr:
             case Const(value, sort):
                 return np.asarray(bool(value) if isinstance(sort, Bool) else float(value))
@@ -109,7 +109,7 @@ class FormulaRows:
                 return self._temporal(expr, arg, past)
         raise AssertionError(f"{expr} belongs to a chart")
 
-    def _temporal(self, word: Temporal, arg: Expr, past: Past) -> Array:
+    def _temporal(self, word: Temporal, arg: Expr, past: LogPast) -> Array:
         now = np.broadcast_to(self.value(arg, past), (self.count,))
         match word.when:
             case When.PREVIOUS:
@@ -122,7 +122,7 @@ class FormulaRows:
             case _:
                 return self._remembered(seen, now, word, past, False)
 
-    def _remembered(self, of: PastWord, now: Array, word: Temporal, past: Past, first: Any) -> Array:
+    def _remembered(self, of: PastWord, now: Array, word: Temporal, past: LogPast, first: Any) -> Array:
         found, past.memory[id(word)] = of(now, past.memory.get(id(word), first))
         return found
 

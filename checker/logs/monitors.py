@@ -36,7 +36,7 @@ LogWord = Literal["satisfied", "violated", "never triggered", "reached", "not re
 
 
 @dataclass
-class Verdict:
+class LogVerdict:
     """What a log says of a property.
 
     ``count``: the ticks in which it is broken; ``tested``: those in which it was put to the test at all;
@@ -64,7 +64,7 @@ class LogMonitors:
     def __init__(
         self, vocabulary: Vocabulary, choice: PropertySelection, known: frozenset[str], from_power_up: bool
     ) -> None:
-        self._judges = [(c, Judge(c.property), Verdict(c.property)) for c in choice.monitored]
+        self._judges = [(c, Judge(c.property), LogVerdict(c.property)) for c in choice.monitored]
         self._wires = Wires(vocabulary).of(known)
         self._outputs = {o.name: o for o in vocabulary.board.outputs if o.var.name in known}
         self._rounded = frozenset(o.var.name for o in self._outputs.values() if measured(o))
@@ -72,7 +72,7 @@ class LogMonitors:
             for _, judge, _ in self._judges:
                 judge.gap()
 
-    def verdicts(self) -> tuple[Verdict, ...]:
+    def verdicts(self) -> tuple[LogVerdict, ...]:
         return tuple(verdict for _, _, verdict in self._judges)
 
     def columns(self, block: LogBlock, seen: Mapping[str, Cells]) -> dict[str, Array]:
@@ -120,7 +120,7 @@ class LogMonitors:
                     self._judge(judge, verdict, rows, places, stretch)
 
     def _judge(
-        self, judge: Judge, verdict: Verdict, rows: FormulaRows, places: Array, stretch: "_Stretch"
+        self, judge: Judge, verdict: LogVerdict, rows: FormulaRows, places: Array, stretch: "_Stretch"
     ) -> None:
         bad, tested = judge.advance(rows)
         verdict.judged += rows.count

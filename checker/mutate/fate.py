@@ -229,7 +229,7 @@ class _KillSearch:
             deadline = monotonic() + SHARE * max(0.0, deadline - monotonic())
         limits = self._limits.until(deadline)
         yield from decide(
-            task, {task.system.name: task.system}, engine, limits, self._progress, None, deadline
+            task, {task.system.name: task.system}, engine, limits, Callbacks(self._progress), deadline
         )
 
     def _judged(self, case: MutantCase, result: Result) -> MutantFate | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from time import monotonic
 from types import MappingProxyType
 
-from rovercheck.checker.engines import AUTO, Limits, quiet
+from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.relevance import as_it_is, changed
 from rovercheck.checker.mutate.tries import RandomRuns, spread, tried
@@ -135,7 +135,7 @@ def _violated(
             seconds = min(limits.seconds or 0.0, deadline - monotonic())
             if seconds <= 0:
                 return
-            for one in decide(task, systems, engine, replace(limits, seconds=seconds), quiet):
+            for one in decide(task, systems, engine, replace(limits, seconds=seconds)):
                 run = run_of(one.verdict) if isinstance(one.verdict, Violated) else None
                 if run is not None:
                     yield one.property.id, run

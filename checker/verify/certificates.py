@@ -13,6 +13,7 @@ from rovercheck.checker.certify.record import rests_on_answers
 from rovercheck.checker.engines import Limits, Progress, Stage
 from rovercheck.checker.results.verdict import Exhausted, Unknown, Verdict
 from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.checker.verify.portfolio import Callbacks
 from rovercheck.checker.verify.result import Result
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
@@ -58,7 +59,9 @@ class Certification:
         progress(Stage(f"certifying {len(proved)} verdict{'s' * (len(proved) != 1)}"))
         reader = CertificateReader(made, self._checked)
         # All of the task: monitors that properties share are named after the first of them.
-        again = {r.property.id: r for r in decide(task, systems, reader, limits, _staying(progress))}
+        again = {
+            r.property.id: r for r in decide(task, systems, reader, limits, Callbacks(_staying(progress)))
+        }
         return {id: _outcome(first, again[id], reader) for id, first in proved.items()}
 
     def _checked(self, one: Certificate, system: TransitionSystem) -> Outcome:

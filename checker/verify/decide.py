@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import monotonic
 
-from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, Stage, Timers
+from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Stage, Timers
 from rovercheck.checker.process.faults import Failed, attempted
 from rovercheck.checker.results.verdict import Open, Reached, Unknown, Unreachable
 from rovercheck.checker.system.formula_json import Tree, readable
@@ -71,13 +71,16 @@ def decide_with_free_timers(
     return done, left
 
 
+SILENT = Callbacks()
+"""Nobody is told anything."""
+
+
 def decide(
     task: Task,
     systems: Mapping[str, System],
     engine: str | Engine,
     limits: Limits,
-    progress: Progress,
-    callbacks: Callbacks | None = None,
+    callbacks: Callbacks = SILENT,
     deadline: float | None = None,
 ) -> Iterator[Result]:
     """A verdict for each property of the task, each as soon as it is known.
@@ -90,9 +93,9 @@ def decide(
     at all.
     """
     deadline = limits.deadline() if deadline is None else deadline
-    progress(Stage(f"lowering {task.system.name}"))
+    callbacks.progress(Stage(f"lowering {task.system.name}"))
     require_initial_tick(lowered(task.system))
-    query = EngineCall(engine, limits, callbacks or Callbacks(progress), deadline, task.recorded)
+    query = EngineCall(engine, limits, callbacks, deadline, task.recorded)
     for prop in task.properties:
         if isinstance(prop.form, Unbounded):
             yield _unbounded(prop, systems, query)
@@ -178,4 +181,4 @@ def _exactly(task: Task, systems: Mapping[str, System], query: EngineCall) -> It
         yield from not_reproducible(question, runs)
 
 
-__all__ = ["ALL", "AUTO", "Disagreement", "Task", "decide", "tasks"]
+__all__ = ["Disagreement", "Task", "decide", "tasks"]

@@ -120,9 +120,7 @@ class SearchWorker:
                 send(StaysInDomains())
 
         callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
-        for one in decide(
-            task, self._systems, self._engine, self._limits, callbacks.progress, callbacks, deadline
-        ):
+        for one in decide(task, self._systems, self._engine, self._limits, callbacks, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(PropertyDecided(one.property.id, results[-1].verdict, one.system))
         callbacks.on_budget(None)

@@ -48,6 +48,7 @@ def obstacles_n(heading: Heading = FREE) -> Chart:
 
 look = [assign(stop, check_emergency_stop)]
 
+# [spec Fig 26]
 distance_70 = State("distance_70", default="check_sonars_for_stopping", states=[
     State("check_sonars_for_stopping", entry=look, during=look, transitions=[
         to("check_sonars_for_moving_again", when=stop, do=[send("emergency", "B2Decisions")]),
@@ -59,7 +60,7 @@ distance_70 = State("distance_70", default="check_sonars_for_stopping", states=[
 
 
 def _waiting(i: int, d: Var, is_close: Var, detected: Var) -> State:
-    """Waiting_Si: rising edge of the detection flag in range, falling edge at any exit (E17).
+    """Waiting_Si [spec Fig 27]: rising edge of the detection flag in range, falling edge at any exit (E17).
 
     It looks for no moving obstacle while there is a stop, and keeps its detection meanwhile (E18, E27).
     """

@@ -1,8 +1,8 @@
 """Properties with and without a bound in one task: each is decided as what it is."""
 
-from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.results.verdict import Violated
-from rovercheck.checker.verify.decide import AUTO, Task, decide
+from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.rover import systems
 
@@ -12,6 +12,6 @@ def test_a_bounded_property_is_never_searched_as_a_loop() -> None:
     unbounded, violated = (catalogue()[id] for id in ("PB1-25-turned", "PSY-12"))
     assert unbounded.on == violated.on
     task = Task(systems()[violated.on], (unbounded, violated))
-    found = {r.property.id: r.verdict for r in decide(task, systems(), AUTO, Limits(), quiet)}
+    found = {r.property.id: r.verdict for r in decide(task, systems(), AUTO, Limits())}
     assert found.keys() == {unbounded.id, violated.id}
     assert isinstance(found[violated.id], Violated)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from rovercheck.checker.engines import Limits, Timers, quiet
+from rovercheck.checker.engines import Limits, Timers
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Violated
 from rovercheck.checker.verify.checked import length
@@ -35,7 +35,7 @@ EXACT = Limits()
 def decided(system: System, that: Expr, timers: Timers, form: type[Never | Reachable] = Never) -> Result:
     prop = Property("P", "Sentence.", form(that), ("R",), system.name)
     task = Task(system, (prop,))
-    [found] = decide(task, {system.name: system}, "explicit", replace(EXACT, timers=timers), quiet)
+    [found] = decide(task, {system.name: system}, "explicit", replace(EXACT, timers=timers))
     assert found.property == prop
     return found
 

@@ -10,7 +10,7 @@ from typing import get_args
 
 import pytest
 
-from rovercheck.checker.engines import Engine, Limits, Progress, engines, explicit, quiet
+from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, engines, explicit
 from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.results.graph import ProjectionKind
 from rovercheck.checker.results.trace import Trace
@@ -25,7 +25,7 @@ from rovercheck.checker.results.verdict import (
     Violated,
 )
 from rovercheck.checker.system.lowering_cache import lowered
-from rovercheck.checker.verify.decide import ALL, AUTO, Task, decide
+from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.domains import LeavesDomain, stray
 from rovercheck.checker.verify.runs.minimise import minimise_inputs
@@ -95,7 +95,7 @@ def test_every_form_is_asked() -> None:
 
 
 def asked(system: System, form: Form, engine: str | Engine, limits: Limits) -> Result:
-    found = decide(Task(system, (prop(system, form),)), {system.name: system}, engine, limits, quiet)
+    found = decide(Task(system, (prop(system, form),)), {system.name: system}, engine, limits)
     return next(iter(found))
 
 
@@ -229,7 +229,7 @@ def test_a_run_of_an_over_approximation_is_no_run_of_a_model_that_has_no_meaning
     real, larger = real_and_larger()
     task = Task(larger, (prop(larger, forms.Reachable(ON)),))
     with pytest.raises(LeavesDomain, match=r"every: x := .* first in tick 4"):
-        raise AssertionError(list(decide(task, {s.name: s for s in (real, larger)}, AUTO, Limits(), quiet)))
+        raise AssertionError(list(decide(task, {s.name: s for s in (real, larger)}, AUTO, Limits())))
 
 
 def test_a_proof_waits_for_the_searches_of_the_system_that_it_is_about() -> None:

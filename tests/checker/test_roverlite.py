@@ -233,7 +233,7 @@ def test_as_a_system_of_one_block_it_has_the_same_steps() -> None:
 
 def test_its_properties_get_the_known_verdicts() -> None:
     system, properties = question(85, 10)
-    results = decide(Task(system, tuple(properties)), {system.name: system}, "explicit", Limits(), quiet)
+    results = decide(Task(system, tuple(properties)), {system.name: system}, "explicit", Limits())
     words = {r.property.id: r.verdict.word for r in results}
     assert words == {
         "RL-P1": "proved",

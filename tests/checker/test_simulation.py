@@ -2,10 +2,10 @@
 
 import pytest
 
-from rovercheck.checker.engines import Limits, quiet, simulation
+from rovercheck.checker.engines import AUTO, Limits, quiet, simulation
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Open, Proved, Reached
-from rovercheck.checker.verify.decide import AUTO, Task, decide
+from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.checker.verify.portfolio.order import ORDERS
 from rovercheck.checker.verify.runs.domains import stray
 from rovercheck.properties.forms import Property, Reachable
@@ -55,7 +55,7 @@ def test_a_witness_of_a_thousand_ticks_is_found_by_holding_the_inputs(seconds: i
     lit = system.charts[0].active("On")
     noise = [v for v in system.written.values() if v.name.startswith("kept")]
     wanted = Property("P", "t", Reachable(all_of(lit, *(v == 0 for v in noise))), ("R",), system.name)
-    [found] = decide(Task(system, (wanted,)), {system.name: system}, "simulation", Limits(), quiet)
+    [found] = decide(Task(system, (wanted,)), {system.name: system}, "simulation", Limits())
     assert isinstance(found.verdict, Proved) and isinstance(found.verdict.because, Trace)
     assert 1 <= len(found.verdict.because) - 50 * seconds < 100
 
@@ -152,6 +152,6 @@ def test_the_same_question_has_the_same_answer() -> None:
 def test_auto_is_not_content_with_a_long_run_where_a_short_one_is_soon_found() -> None:
     system = in_order("counter", Block("B", [assign(v := var("n", integer(0, 200)), minimum(v + 1, 200))]))
     wanted = Property("P", "t", Reachable(v == 150), ("R",), system.name)
-    [found] = decide(Task(system, (wanted,)), {system.name: system}, AUTO, Limits(), quiet)
+    [found] = decide(Task(system, (wanted,)), {system.name: system}, AUTO, Limits())
     assert isinstance(found.verdict, Proved) and isinstance(found.verdict.because, Trace)
     assert len(found.verdict.because) == 150

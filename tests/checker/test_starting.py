@@ -3,10 +3,10 @@
 import pytest
 from hypothesis import given
 
-from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.system import initial as starting
 from rovercheck.checker.system.initial import has_initial_tick, require_initial_tick
-from rovercheck.checker.verify.decide import AUTO, Task, decide
+from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.properties.forms import never
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
@@ -55,4 +55,4 @@ def test_nothing_is_proved_of_a_system_without_a_run() -> None:
     empty = in_order("empty", Block("copy", [assign(off, on)]), assume=on & ~on)
     task = Task(empty, (never("P", "It is never off.", that=off, covers=["R"], on="empty"),))
     with pytest.raises(ModelError, match="allows no first tick"):
-        list(decide(task, {"empty": empty}, AUTO, Limits(), quiet))
+        list(decide(task, {"empty": empty}, AUTO, Limits()))

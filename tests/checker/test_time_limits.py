@@ -104,5 +104,5 @@ def test_no_engine_is_asked_when_the_time_is_over() -> None:
     system = in_order("lamp", LAMP)
     prop = Property("LAMP", "", Always(lamp | ~lamp), (), "lamp")
     limits = replace(Limits(), seconds=0.0)
-    [result] = decide(Task(system, (prop,)), {"lamp": system}, AUTO, limits, lambda _: None)
+    [result] = decide(Task(system, (prop,)), {"lamp": system}, AUTO, limits)
     assert result.verdict == Unknown("time: 0 s ended before an engine was asked", 0, "none")

@@ -64,7 +64,7 @@ def test_a_proof_stands_that_is_too_large_for_a_certificate(
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
     told = Callbacks(on_answer=recorder.answered)
-    found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
+    found = list(decide(task, systems(), "explicit", Limits(), told))
     [result] = found
     assert result.verdict.word == "proved" and recorder.made == []
     outcomes = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)
@@ -82,7 +82,7 @@ def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> Non
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
     told = Callbacks(on_answer=recorder.answered)
-    found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
+    found = list(decide(task, systems(), "explicit", Limits(), told))
     outcome = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
         "PB1-11"
     ]

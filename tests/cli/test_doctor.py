@@ -15,7 +15,7 @@ from rovercheck.checker import cache
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.doctor import run as doctor
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.engines import Limits, Progress, engines
+from rovercheck.checker.engines import Limits, engines
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.checker.verify.result import Result
@@ -96,9 +96,9 @@ def test_an_engine_that_gives_up_on_what_is_true_is_found_out(monkeypatch: pytes
     assert doctor.tried("bmc") == "", "it proves nothing, and looks as deep as it was asked to"
 
     def giving_up(
-        task: Task, systems: Mapping[str, System], engine: str, limits: Limits, progress: Progress
+        task: Task, systems: Mapping[str, System], engine: str, limits: Limits
     ) -> Iterator[Result]:
-        for found in decide(task, systems, engine, limits, progress):
+        for found in decide(task, systems, engine, limits):
             unknown = Unknown("no more time", 7, "bmc")
             yield replace(found, verdict=unknown) if found.property.id == "true" else found
 

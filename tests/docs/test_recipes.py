@@ -11,7 +11,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 BY_HAND = {
     "Add or change a chart": "the lift of examples/models is one, and tests/model_files adds charts",
+    "Add a system": "tests/model lowers and runs every one",
     "Add an interpretation": "an ambiguous sentence: tests/interpretations runs each choice",
+    "Add a field to a JSON document": "mypy compares record and code, tests/docs the schema",
     "Change what a board reads or produces": "tests/model/test_abstraction.py",
     "Add a word to the language": "two independent meanings, which tests/lang compares",
     "Add a form of properties": "a monitor and a sentence, which tests/properties compares",

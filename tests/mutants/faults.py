@@ -7,7 +7,7 @@ from functools import cache
 from pytest import MonkeyPatch
 
 from benchmarks.faults.edits import BlockEdit, ChartEdit, PartEdit, of_block, of_chart
-from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines import Limits
 from rovercheck.checker.results.verdict import Verdict
 from rovercheck.checker.verify.checked import length
 from rovercheck.checker.verify.decide import Task, decide
@@ -53,7 +53,7 @@ def decided(killer: str, edit: Callable[[System], System]) -> Verdict:
     """The killer's verdict on its own system after the edit; an over-approximation is taken as it is."""
     prop = catalogue()[killer]
     changed = replace(edit(systems()[prop.on]), over=False)
-    [result] = decide(Task(changed, (prop,)), systems(), "explicit", Limits(), quiet)
+    [result] = decide(Task(changed, (prop,)), systems(), "explicit", Limits())
     return result.verdict
 
 

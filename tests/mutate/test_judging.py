@@ -175,7 +175,7 @@ def test_a_part_is_made_faulty_where_most_runs_are() -> None:
 
 def test_runs_of_the_original_settle_only_what_a_search_finds_too() -> None:
     """What a known run still reaches has the verdict of the original."""
-    results = decide(Task(as_it_is(lamps), PROPERTIES), {"lamps": lamps}, "auto", Limits(), quiet)
+    results = decide(Task(as_it_is(lamps), PROPERTIES), {"lamps": lamps}, "auto", Limits())
     runs = {r.property.id: run for r in results if (run := run_of(r.verdict)) is not None}
     tried, forms = list(runs.values()), {p.id: p.form for p in PROPERTIES}
     assert runs and runs.keys() <= reached(lamps, PROPERTIES, tried).keys()

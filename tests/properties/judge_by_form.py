@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rovercheck.checker.logs.formula import Array, FormulaRows, Past, run_lengths, shifted
+from rovercheck.checker.logs.formula import Array, FormulaRows, LogPast, run_lengths, shifted
 from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
@@ -36,7 +36,7 @@ class JudgeByForm:
     """
 
     property: Property
-    past: Past = field(default_factory=Past)
+    past: LogPast = field(default_factory=LogPast)
     rows: int = 0
     _waits: int = 0
     _left: int = 0

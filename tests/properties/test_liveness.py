@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.engines import AUTO, Limits, engines, quiet
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.trace_json import document
 from rovercheck.checker.render.trace_table import render
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
-from rovercheck.checker.verify.decide import AUTO, Task, decide, tasks
+from rovercheck.checker.verify.decide import Task, decide, tasks
 from rovercheck.checker.verify.liveness import verdicts
 from rovercheck.checker.verify.liveness import verdicts as recover
 from rovercheck.checker.verify.liveness.loops import loop_query, looped
@@ -166,7 +166,7 @@ SYSTEMS = {
 def _decided(form: Form, on: str) -> Result:
     prop = Property("P-1", "sentence", form, ("R",), on)
     [task] = tasks([prop], SYSTEMS)
-    [result] = decide(task, SYSTEMS, AUTO, Limits(), quiet)
+    [result] = decide(task, SYSTEMS, AUTO, Limits())
     return result
 
 
@@ -231,7 +231,7 @@ def test_an_over_approximation_has_ways_back_that_the_charts_lack() -> None:
     loose = System("plant", (PLANT,), over=True, concrete="exact")
     over = {"plant": loose, "exact": in_order("exact", PLANT)}
     prop = Property("P-1", "sentence", Recoverable(PLANT.active("Idle")), ("R",), "plant")
-    [result] = decide(Task(over["plant"], (prop,)), over, AUTO, Limits(), quiet)
+    [result] = decide(Task(over["plant"], (prop,)), over, AUTO, Limits())
     assert isinstance(result.verdict, Unknown) and "over-approximation" in result.verdict.reason
 
 
@@ -241,13 +241,13 @@ def test_a_loop_of_an_over_approximation_must_exist_in_the_system_it_stands_for(
 ) -> None:
     known = {**SYSTEMS, "loose": System("loose", (PLANT,), over=True, concrete=concrete)}
     prop = Property("P-1", "sentence", LeadsTo(busy, ~busy), ("R",), "loose")
-    [result] = decide(Task(known["loose"], (prop,)), known, AUTO, Limits(), quiet)
+    [result] = decide(Task(known["loose"], (prop,)), known, AUTO, Limits())
     assert result.system == concrete and result.verdict.word == word
 
 
 def test_loops_are_not_proved_absent_when_the_search_is_cut_short() -> None:
     prop = Property("P-1", "sentence", LeadsTo(busy, ~busy, fair=(~stay,)), ("R",), "calm")
-    [result] = decide(Task(SYSTEMS["calm"], (prop,)), SYSTEMS, AUTO, Limits(depth=4), quiet)
+    [result] = decide(Task(SYSTEMS["calm"], (prop,)), SYSTEMS, AUTO, Limits(depth=4))
     assert isinstance(result.verdict, Unknown) and result.verdict.depth == 4
 
 
@@ -260,7 +260,7 @@ def _heard(*forms_: Form) -> tuple[list[Result], list[Fault]]:
     props = tuple(Property(f"P-{n}", "sentence", form, ("R",), "plant") for n, form in enumerate(forms_))
     faults: list[Fault] = []
     with listening(faults.append):
-        return list(decide(Task(SYSTEMS["plant"], props), SYSTEMS, AUTO, Limits(), quiet)), faults
+        return list(decide(Task(SYSTEMS["plant"], props), SYSTEMS, AUTO, Limits())), faults
 
 
 def test_a_search_for_a_way_back_that_fails_costs_no_other_verdict(monkeypatch: pytest.MonkeyPatch) -> None:

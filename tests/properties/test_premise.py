@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines import Limits
 from rovercheck.checker.verify.decide import decide, tasks
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.forms import (
@@ -98,5 +98,5 @@ def test_a_case_that_never_occurs_is_found_out(trigger: Expr, verdict: str) -> N
     assert case is not None
     systems = {"toy": LAMP}
     [task] = tasks([case], systems)
-    [result] = decide(task, systems, "bdd", Limits(), quiet)
+    [result] = decide(task, systems, "bdd", Limits())
     assert result.verdict.word == verdict

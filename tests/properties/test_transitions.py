@@ -1,9 +1,9 @@
 """That every transition of the obstacle chart can be taken: together the witnesses take them all."""
 
-from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved
-from rovercheck.checker.verify.decide import AUTO, decide, tasks
+from rovercheck.checker.verify.decide import decide, tasks
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.lang.chart import Chart, Path, Transition
 from rovercheck.spec_model.rover import systems
@@ -23,7 +23,7 @@ def _ways(chart: Chart, level: Path, transition: Transition) -> int:
 def test_the_witnesses_take_every_transition_of_the_figure() -> None:
     taken: set[tuple[str, int, str]] = set()
     for task in tasks(WITNESSES, systems()):
-        for result in decide(task, systems(), AUTO, Limits(), quiet):
+        for result in decide(task, systems(), AUTO, Limits()):
             assert isinstance(result.verdict, Proved) and isinstance(result.verdict.because, Trace)
             transitions = (a for tick in result.verdict.because.ticks for a in tick.transitions)
             taken |= {(a.source, a.order, a.label) for a in transitions if a.chart == "Obstacles" and a.order}

@@ -18,7 +18,7 @@ from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.variant import pick_variant
-from rovercheck.checker.engines import Limits, Timers, quiet
+from rovercheck.checker.engines import Limits, Timers
 from rovercheck.checker.io.files import replaced
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.process.isolate import Send
@@ -130,7 +130,7 @@ def _decided(
         raise UsageError("no search has both properties with a bound and properties without one")
     task = Task(pick("system", origin.system, systems), properties)
     limits = Limits(timers=Timers(origin.timers))
-    return {r.property.id: r for r in decide(task, systems, reader, limits, quiet)}
+    return {r.property.id: r for r in decide(task, systems, reader, limits)}
 
 
 def _variant(origin: CertificateOrigin, model: Path | None) -> Variant:

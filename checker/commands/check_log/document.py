@@ -12,7 +12,7 @@ from rovercheck.checker.io.document import Count, Ordinal
 from rovercheck.checker.logs import LogResult, as_on_record
 from rovercheck.checker.logs.deviations import Deviation, DeviationKind
 from rovercheck.checker.logs.invalid import InvalidCell
-from rovercheck.checker.logs.monitors import LogWord, Verdict
+from rovercheck.checker.logs.monitors import LogVerdict, LogWord
 
 Line = Annotated[int, Ge(2)]
 """Of the file, from 1, after the names of its columns; of Parquet the row plus 1."""
@@ -209,7 +209,7 @@ def _cell(cell: InvalidCell) -> CellRow:
     }
 
 
-def _verdict(verdict: Verdict) -> LogVerdictRow:
+def _verdict(verdict: LogVerdict) -> LogVerdictRow:
     row: LogVerdictRow = {
         "id": verdict.prop.id,
         "verdict": verdict.word,

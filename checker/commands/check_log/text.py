@@ -10,7 +10,7 @@ from rovercheck.checker.io.printable import one_line
 from rovercheck.checker.logs import LogError, LogResult, as_on_record
 from rovercheck.checker.logs.deviations import Deviation
 from rovercheck.checker.logs.invalid import Invalid
-from rovercheck.checker.logs.monitors import Verdict
+from rovercheck.checker.logs.monitors import LogVerdict
 
 KINDS = {
     "value": "",
@@ -117,7 +117,7 @@ def _properties(found: LogResult, verbose: bool) -> Iterator[str]:
     yield from _unmonitored(found, verbose)
 
 
-def _verdict(verdict: Verdict, mark: str) -> Iterator[str]:
+def _verdict(verdict: LogVerdict, mark: str) -> Iterator[str]:
     yield fill(
         f"{verdict.prop.id}: {verdict.prop.text}",
         text_width(),
@@ -131,7 +131,7 @@ def _verdict(verdict: Verdict, mark: str) -> Iterator[str]:
         yield _lines("", ", ".join(f"{n} = {v}" for n, v in verdict.first.values.items()), hang=6)
 
 
-def _outcome(verdict: Verdict) -> str:
+def _outcome(verdict: LogVerdict) -> str:
     if verdict.first is None:
         return {"satisfied": "satisfied on this log", "never triggered": "never triggered: says nothing"}.get(
             verdict.word, verdict.word

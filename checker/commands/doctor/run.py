@@ -36,6 +36,7 @@ TRIAL_SECONDS = 60.0
 """The version of the JSON document."""
 
 REQUIRED = {
+    "annotated-types": "what the fields of JSON documents hold",
     "bitwuzla": "certificates of proofs are checked with it",
     "click": "the command line",
     "hypothesis": "random runs of compare",
@@ -50,6 +51,7 @@ REQUIRED = {
     "python-sat": "the engine pdr, reasons of traces",
     "pyvcd": "VCD files",
     "rich": "tables and colours in the terminal",
+    "typing-extensions": "records of JSON documents",
     "z3-solver": "the engines bmc, kinduction and localisation",
 }
 """Packages that rovercheck cannot do without, and what for."""
@@ -218,7 +220,7 @@ def _trial(name: str, work: Callable[[], str]) -> DoctorFinding:
 
 def tried(engine: str) -> str:
     """What is wrong with the answers of an engine to two questions with known answers; empty if nothing."""
-    from rovercheck.checker.engines import Limits, engines, quiet
+    from rovercheck.checker.engines import Limits, engines
     from rovercheck.checker.results.verdict import Proved, Unknown
     from rovercheck.checker.verify.decide import Task, decide
 
@@ -226,7 +228,7 @@ def tried(engine: str) -> str:
     task = Task(system, properties())
     found = {
         r.property.id: r.verdict
-        for r in decide(task, {system.name: system}, engine, Limits(TRIAL_DEPTH, TRIAL_SECONDS), quiet)
+        for r in decide(task, {system.name: system}, engine, Limits(TRIAL_DEPTH, TRIAL_SECONDS))
     }
     if found["false"].word != "violated":
         return f"says {found['false'].word} of what is violated in the third tick"
