@@ -6,12 +6,10 @@ from functools import cache
 from itertools import chain, count, islice
 from pathlib import Path
 
-from rovercheck.checker.adapters import start
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values
 from rovercheck.checker.compare.beside import (
     ComparedStep,
     StepMismatch,
-    compared,
     differences,
     differs,
     played,
@@ -22,9 +20,7 @@ from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
 from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
-from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
-from rovercheck.checker.compare.variants import named
 from rovercheck.checker.testgen import kept
 from rovercheck.spec_model.abstraction import Board
 
@@ -138,9 +134,6 @@ def _apply(at: dict[str, Value], changes: Changes) -> None:
             at[name] = value
 
 
-AS_READ: Mapping[str, str] = {}
-
-
 def cross_check(
     board: str | Board,
     implementation: Implementation,
@@ -177,26 +170,6 @@ def quick_check(
 def recorded_suite(board: str, profile: str = "ci", examples: int | None = None) -> Suite:
     """The runs of a profile on a board, with what the charts require."""
     return suite(ENVIRONMENTS[board], effort(profile, examples), _known(ENVIRONMENTS[board], None))
-
-
-def replay(
-    board: str,
-    address: str,
-    stimulus: Stimulus,
-    interpretations: Mapping[str, str] = AS_READ,
-    repair: str = "",
-) -> StepMismatch | None:
-    """Run the implementation at an address ``KIND:WHAT`` and the charts under one stimulus.
-
-    The charts are those under ``interpretations``, with a repair if one is named.
-    The first step in which they differ, or None.  Raises ``ImplementationError``.
-    """
-    which = named(interpretations, repair)[board]
-    implementation = start(address, which)
-    try:
-        return compared(which, played(which, {}, stimulus), implementation)
-    finally:
-        implementation.close()
 
 
 def _known(env: Environment, folder: Path | None) -> Iterable[Run]:
