@@ -12,8 +12,6 @@ _TYPES = {
     SignalKind.BOOL: "bool", SignalKind.WHOLE: "int32_t", SignalKind.NUMBER: "double",
     SignalKind.CLOCK: "uint32_t", SignalKind.STAMP: "uint32_t",
 }  # fmt: skip
-
-
 WIDTH = 106
 NEXT = "\n   "
 """Between the lines of a comment."""

@@ -4,15 +4,16 @@ import csv
 from collections.abc import Iterable
 from io import StringIO
 
+from rovercheck.checker.board_tests.rows import clock_of
 from rovercheck.checker.io.files import csv_cell
-from rovercheck.checker.results.board_test import BoardTest, SignalKind, Value
+from rovercheck.checker.results.board_test import BoardTest, Value
 
 TIME = "time_ms"
 
 
 def csv_table(test: BoardTest) -> str:
     """The table with a line of names; a truth value is 0 or 1, an output left open an empty cell."""
-    [clock] = [s.name for s in test.board.inputs if s.kind is SignalKind.CLOCK]
+    clock = clock_of(test.board.inputs)
     inputs = [s.name for s in test.board.inputs if s.name != clock]
     outputs = [o.name for o in test.board.outputs]
     lines = [[TIME, *map(csv_cell, (*inputs, *outputs))]]

@@ -4,8 +4,8 @@ import json
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from rovercheck.checker.board_tests.rows import Moment, by_board, rows, start_ms
-from rovercheck.checker.results.board_test import BoardTest, SignalKind
+from rovercheck.checker.board_tests.rows import Moment, by_board, clock_of, rows, start_ms
+from rovercheck.checker.results.board_test import BoardTest
 from rovercheck.spec_model.lang.system import TICK_MS
 
 WIDTH = 106
@@ -87,12 +87,11 @@ def test_outputs(board, name, started):
 def pytest_file(about: Sequence[str], tests: Sequence[BoardTest]) -> str:
     """The text of the file; ``about`` are the paragraphs with which it begins."""
     of_board = by_board(tests)
-    [clock] = {s.name for board in of_board for s in board.inputs if s.kind is SignalKind.CLOCK}
     head = HEAD.format(
         about="\n\n".join(textwrap.fill(_quotable(text), WIDTH) for text in about),
         names=" and ".join(f"`{_quotable(b.implementation)}`" for b in of_board),
         only=f" -k {tests[0].board.name}" if len(of_board) > 1 else "",
-        clock=_text(clock),
+        clock=_text(clock_of(tests[0].board.inputs)),
         tick_ms=TICK_MS,
         implementations="".join(f"    {_text(b.name)}: {_text(b.implementation)},\n" for b in of_board),
     )

@@ -19,9 +19,15 @@ Row = tuple[int, Moment, Moment]
 """Equal steps: how many, and the inputs and outputs that differ from those of the step before."""
 
 
+def clock_of(inputs: Iterable[StepSignal]) -> str:
+    """The name of the clock."""
+    [clock] = [s.name for s in inputs if s.kind is SignalKind.CLOCK]
+    return clock
+
+
 def moments(inputs: Sequence[StepSignal], given: Iterable[Mapping[str, Value]]) -> Iterator[Moment]:
     """What concrete inputs, step by step from power-up, say without the clock."""
-    [clock] = [s.name for s in inputs if s.kind is SignalKind.CLOCK]
+    clock = clock_of(inputs)
     stamps = [s.name for s in inputs if s.kind is SignalKind.STAMP]
     before: Mapping[str, Value] = {s.name: s.initial for s in inputs}
     for at in given:
@@ -71,5 +77,4 @@ def by_board(tests: Iterable[BoardTest]) -> dict[BoardUnderTest, list[BoardTest]
 
 def start_ms(test: BoardTest) -> int:
     """The time of the first step; 0 of a test without steps."""
-    [clock] = [s.name for s in test.board.inputs if s.kind is SignalKind.CLOCK]
-    return int(test.steps[0].inputs[clock]) if test.steps else 0
+    return int(test.steps[0].inputs[clock_of(test.board.inputs)]) if test.steps else 0

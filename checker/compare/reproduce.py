@@ -9,7 +9,7 @@ from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.result import Failure
 from rovercheck.checker.results.board_test import BoardStep, BoardTest
 from rovercheck.checker.testgen.expected_outputs import under_test
-from rovercheck.checker.testgen.scripts import Script, blocks, script
+from rovercheck.checker.testgen.scripts import Script, script
 
 Found = StepMismatch | Failure
 
@@ -21,8 +21,7 @@ def script_of(found: Found) -> Script:
 
 def file_name(found: Found) -> str:
     """``crosscheck_board1_0a1b2c3d.py``: the same name for the same inputs and output."""
-    start = found.steps[0].inputs
-    text = repr((start, blocks(found.board, script_of(found)), _subject(found)))
+    text = repr(([step.inputs for step in found.steps], _subject(found)))
     return f"crosscheck_{found.board.name}_{sha256(text.encode()).hexdigest()[:8]}.py"
 
 

@@ -65,7 +65,7 @@ def _script(board: Board, rows: Sequence[tuple[int, Moment]], flags: Collection[
     def lag(name: str, value: Value | None) -> Value | None:
         return (0 if value else None) if name in flags else value
 
-    return unfolded(board, [(n, {s: lag(s, v) for s, v in changes.items()}) for n, changes in rows])
+    return unfolded(board, [(n, {s: lag(s, v) for s, v in dict(changes).items()}) for n, changes in rows])
 
 
 def read(board: Board, text: str) -> list[Test]:

@@ -6,6 +6,8 @@ import sys
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
+from random import Random
+from typing import Any
 
 import pytest
 
@@ -17,6 +19,7 @@ from rovercheck.checker.testgen.formats import FORMATS
 from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.testgen.scripts import Script, script, steps, unfolded
 from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW
 from tests.conform.cover_toys import TOY
 
 LAMP = """
@@ -84,6 +87,45 @@ def test_an_output_left_open_is_an_empty_cell() -> None:
     test = kept_test(boards()["board1"], 0)
     first = next(csv.DictReader(StringIO(FORMATS["csv"]("board1", [test])[f"{test.name}.csv"])))
     assert first["targetAngle180"] == "" and first["v_ref"] != ""
+
+
+def late_test(board: Board) -> BoardTest:
+    """With stamps between the steps, and a clock that begins again."""
+    random = Random(1)
+    signals = [s for s in board.inputs if s.name != NOW]
+    moments = [
+        {s.name: random.choice((None, None, 0, 13)) if s.stamp else s.initial for s in signals}
+        for _ in range(30)
+    ]
+    return expected(board, "late", steps(board, moments, CLOCK - 200))
+
+
+@pytest.mark.parametrize("name", ["board1", "board2"])
+def test_the_pytest_file_gives_the_inputs_of_the_test(name: str) -> None:
+    test, module = late_test(boards()[name]), dict[str, Any]()
+    exec(FORMATS["pytest"](name, [test])[f"test_cover_{name}.py"], module)
+    played = module["played"](boards()[name], *module["TESTS"][name]["late"])
+    assert list(played) == [(step.inputs, step.outputs) for step in test.steps]
+
+
+@pytest.mark.parametrize("name", ["board1", "board2"])
+def test_the_c_program_gives_the_inputs_of_the_test(tmp_path: Path, cc: str, name: str) -> None:
+    test = late_test(boards()[name])
+    required = replace(test, steps=tuple(replace(step, outputs={}) for step in test.steps))
+    names = list(test.steps[0].inputs)
+    shown = "".join(f'    printf("%.10g ", (double)in->{n});\n' for n in names)
+    echo = (
+        f'#include <stdio.h>\n#include "cover_{name}.h"\nvoid reset(void) {{}}\nvoid step(void) {{}}\n'
+        "void get_outputs(struct outputs *out) { (void)out; }\n"
+        f'void set_inputs(const struct inputs *in)\n{{\n{shown}    printf("\\n");\n}}\n'
+    )
+    written(tmp_path, dict(FORMATS["c"](name, [required])) | {"echo.c": echo})
+    made = ran(cc, "-std=c99", f"cover_{name}.c", "echo.c", "-lm", "-o", "cover", cwd=tmp_path)
+    assert made.returncode == 0, made.stderr
+    *lines, last = ran("./cover", cwd=tmp_path).stdout.splitlines()
+    given = [dict(zip(names, map(float, line.split()), strict=True)) for line in lines]
+    assert given == [step.inputs for step in test.steps]
+    assert last == f"{name}: 1 of 1 tests passed"
 
 
 @pytest.mark.parametrize(("least", "code", "said"), [(3, 0, "2 of 2 tests passed"), (4, 1, "in toy_001 at")])
