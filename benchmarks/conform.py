@@ -25,7 +25,7 @@ from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.system import TICK_MS
 from rovercheck.spec_model.rover import systems
-from tests.conform.recorded import long_log, record, written
+from tests.logs.recorded import long_log, record, written
 
 LONG = 20_000
 """Ticks of the log for the monitors."""

@@ -2,9 +2,11 @@
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+
+VerdictWord = Literal["proved", "violated", "unknown"]
 
 EXCEPTIONS = ("violated", "unknown")
 FIELDS: dict[str, type] = {"verdict": str, "depth": int, "because": str, "no_repair": str, "no_fault": str}
@@ -19,7 +21,7 @@ class Expected:
     is proposed, where none is; ``no_fault`` why a proof need not notice any fault of the charts.
     """
 
-    verdict: str = "proved"
+    verdict: VerdictWord = "proved"
     depth: int | None = None
     because: str = ""
     no_repair: str = ""

@@ -31,3 +31,14 @@ register()
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Long tests first: one that begins late keeps the other processes waiting."""
     items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
+@pytest.fixture(scope="session")
+def cc() -> str:
+    """The C compiler; tests that need one are skipped, visibly, where there is none."""
+    from rovercheck.checker.adapters.c_build import compiler
+
+    found = compiler()
+    if found is None:
+        pytest.skip("there is no C compiler on this machine (cc, gcc, clang)")
+    return found

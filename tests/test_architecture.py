@@ -17,7 +17,13 @@ CONTRACTS = {c["id"]: c for c in SETTINGS["tool"]["importlinter"]["contracts"]}
 TOP = "rovercheck"
 PACKAGES = (TOP, *sorted(SETTINGS["tool"]["hatch"]["build"]["targets"]["wheel"]["sources"]))
 """The folders of what is installed: the first, and those that are packages below it."""
-DISTRIBUTION = {"pysat": "python-sat", "vcd": "pyvcd", "z3": "z3-solver"}
+DISTRIBUTION = {
+    "annotated_types": "annotated-types",
+    "pysat": "python-sat",
+    "typing_extensions": "typing-extensions",
+    "vcd": "pyvcd",
+    "z3": "z3-solver",
+}
 """Import names that differ from the name to install."""
 
 

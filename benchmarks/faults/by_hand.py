@@ -6,17 +6,16 @@ What a chart cannot express, such as a buffer that two monitors share, is put in
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from benchmarks.faults.edits import BlockEdit, ChartEdit, PartEdit, no_entry, no_exit, of_block, of_chart
 from benchmarks.faults.inside import IMPLEMENTATIONS
 from rovercheck.checker.adapters.python_calls import Instance
 from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.action import assign
-from rovercheck.spec_model.lang.chart import Block, Chart
+from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.edit import (
     constant,
     drop,
-    edit_state,
     edit_transition,
-    entry,
     everywhere,
     guard,
     in_block,
@@ -34,9 +33,6 @@ from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2 import objDetected
 
-Edit = Callable[[Chart], Chart]
-BlockEdit = Callable[[Block], Block]
-
 
 @dataclass(frozen=True)
 class Fault:
@@ -49,7 +45,7 @@ class Fault:
     board: str
     part: str
     text: str
-    edit: Callable[[Chart | Block], Chart | Block] | None = None
+    edit: PartEdit | None = None
     make: Callable[[], Instance] | None = None
 
     def __str__(self) -> str:
@@ -63,31 +59,7 @@ class Fault:
         return replace(board, system=in_system(board.system, self.part, self.edit))
 
 
-def _chart(edit: Edit) -> Callable[[Chart | Block], Chart | Block]:
-    def change(part: Chart | Block) -> Chart:
-        assert isinstance(part, Chart)
-        return edit(part)
-
-    return change
-
-
-def _block(edit: BlockEdit) -> Callable[[Chart | Block], Chart | Block]:
-    def change(part: Chart | Block) -> Block:
-        assert isinstance(part, Block)
-        return edit(part)
-
-    return change
-
-
 # --- edits ------------------------------------------------------------------------------------------
-
-
-def _no_exit(name: str) -> Edit:
-    return lambda c: edit_state(c, name, lambda s: replace(s, exit=()))
-
-
-def _no_entry(name: str, position: int) -> Edit:
-    return lambda c: entry(c, name, lambda acts: (*acts[:position], *acts[position + 1 :]))
 
 
 def _exchanged(one: Var, other: Var) -> Callable[[Expr], Expr]:
@@ -106,7 +78,7 @@ def _without(position: int) -> BlockEdit:
 # --- the faults ---------------------------------------------------------------------------------------
 
 RUNNING, BRAKE = "Stato_marcia_rover", "In_frenata_di_emergenza"
-Row = tuple[str, str, str, Edit]
+Row = tuple[str, str, str, ChartEdit]
 CHARTS: dict[str, Sequence[Row]] = {
     "boundary": [
         ("board1", "Monitor_battery", "< 23 becomes <= 23",
@@ -152,10 +124,10 @@ CHARTS: dict[str, Sequence[Row]] = {
                                    lambda t: replace(t, do=(assign(motion.backward_enabled, True),)))),
     ],
     "reset": [
-        ("board1", "Motion_Supervision", "the inversion outlives an emergency stop", _no_exit(RUNNING)),
+        ("board1", "Motion_Supervision", "the inversion outlives an emergency stop", no_exit(RUNNING)),
         ("board1", "Motion_Supervision", "the recovery of the last stop counts again",
          lambda c: edit_transition(c, RUNNING, 1, lambda t: replace(t, do=()))),
-        ("board2", "Motion_Supervision_2", "turning kept in the brake", _no_entry(BRAKE, 2)),
+        ("board2", "Motion_Supervision_2", "turning kept in the brake", no_entry(BRAKE, 2)),
     ],
     "missing return": [
         ("board1", "Motion_Supervision", "an avoidance does not end", lambda c: drop(c, "Evita_destra", 1)),
@@ -189,7 +161,7 @@ BLOCKS: dict[str, Sequence[tuple[str, str, str, BlockEdit]]] = {
 
 def faults() -> list[Fault]:
     """All faults, by kind."""
-    charts = [Fault(kind, *row[:3], edit=_chart(row[3])) for kind, rows in CHARTS.items() for row in rows]
-    blocks = [Fault(kind, *row[:3], edit=_block(row[3])) for kind, rows in BLOCKS.items() for row in rows]
+    charts = [Fault(kind, *row[:3], edit=of_chart(row[3])) for kind, rows in CHARTS.items() for row in rows]
+    blocks = [Fault(kind, *row[:3], edit=of_block(row[3])) for kind, rows in BLOCKS.items() for row in rows]
     inside = [Fault(*about, make=make) for about, make in IMPLEMENTATIONS.items()]
     return charts + blocks + inside

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from rovercheck.checker.logs.mismatch import LogDifference, LogMismatch
 
@@ -9,6 +10,9 @@ Key = tuple[object, ...]
 
 MOST_KEPT = 5_000
 """Mismatches kept until it is known whether several outputs stay together."""
+
+
+DeviationKind = Literal["value", "late", "frozen", "swapped"]
 
 
 @dataclass(frozen=True)
@@ -20,7 +24,7 @@ class Deviation:
     ``count`` the ticks in between that differ, ``times`` how often it began.
     """
 
-    kind: str
+    kind: DeviationKind
     first: LogMismatch
     last: int
     count: int
@@ -97,7 +101,7 @@ class Grouping:
         first = replace(stayed[0], part="")
         self._join(key, Deviation("frozen", first, max(ticks), len(ticks), 1, tuple(every.values())))
 
-    def _add(self, mismatch: LogMismatch, kind: str) -> None:
+    def _add(self, mismatch: LogMismatch, kind: DeviationKind) -> None:
         """A series of one value for another is one deviation, whatever the charts do meanwhile."""
         last, pairs, key = self._running.get(mismatch.part, (0, (), ()))
         goes_on = kind == "value" and last == mismatch.tick - 1 and pairs == mismatch.key
@@ -146,7 +150,7 @@ def swapped(found: Sequence[Deviation], pairs: Iterable[tuple[str, str]]) -> Ite
     yield from rest
 
 
-def _merged(group: Sequence[Deviation], kind: str) -> Deviation:
+def _merged(group: Sequence[Deviation], kind: DeviationKind) -> Deviation:
     first = min(group, key=lambda d: d.first.tick)
     every = {d.key: d for one in group for d in one.differences}
     return replace(

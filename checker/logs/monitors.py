@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Literal
 
 import numpy as np
 
@@ -31,6 +32,9 @@ class FirstViolation:
     values: Mapping[str, str]
 
 
+LogWord = Literal["satisfied", "violated", "never triggered", "reached", "not reached"]
+
+
 @dataclass
 class Verdict:
     """What a log says of a property.
@@ -47,7 +51,7 @@ class Verdict:
     expected: str = "proved"
 
     @property
-    def word(self) -> str:
+    def word(self) -> LogWord:
         """``violated``, ``satisfied`` or ``never triggered``; ``reached`` or ``not reached``."""
         if isinstance(self.prop.form, Reachable):
             return "reached" if self.count else "not reached"

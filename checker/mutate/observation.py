@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from rovercheck.checker.mutate.product import Product
 from rovercheck.checker.results.trace import Tick
@@ -12,13 +13,15 @@ from rovercheck.spec_model.lang.chart import Chart, parts
 from rovercheck.spec_model.lang.evaluate import admissible
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
+AllowedBy = Literal["the original", "the mutant"]
+
 
 @dataclass(frozen=True)
 class MutantDifference:
     """A run that tells a mutant from the original, both of which were run by the interpreter of the charts.
 
     ``inputs`` are those of each tick, ``original`` and ``mutant`` the values after the last tick of what
-    differs then; ``places`` says in which state each chart was before it.  ``refused``: only this one, the
+    differs then; ``places`` says in which state each chart was before it.  ``allowed_by``: only this one, the
     original or the mutant, has a last tick with these inputs.  All values are as people write them.
     """
 
@@ -28,7 +31,7 @@ class MutantDifference:
     mutant: Mapping[str, str]
     places: Mapping[str, str]
     shortest: bool
-    allowed_by: str = ""
+    allowed_by: AllowedBy | None = None
 
     def __len__(self) -> int:
         return len(self.inputs)
@@ -69,7 +72,9 @@ def difference(
     allowed = [_allows(system, own) for system, own in ((original, ours), (mutant, theirs))]
     if not any(allowed):
         raise ReplayError(f"{both.system.name}: nobody allows the inputs of the run.")
-    refused = "" if all(allowed) else "the original" if allowed[0] else "the mutant"
+    refused: AllowedBy | None = None
+    if not all(allowed):
+        refused = "the original" if allowed[0] else "the mutant"
     before = replace(ours, inputs=ours.inputs[:-1]) if refused else ours
     one, _ = followed(original, before, "the original")
     other, _ = followed(mutant, replace(theirs, inputs=theirs.inputs[: len(before)]), "the mutant")

@@ -9,7 +9,7 @@ import importlib
 import pkgutil
 from typing import Any, Protocol
 
-from rovercheck.checker.results.format import Format
+from rovercheck.checker.results.format import Format, Kind
 
 
 class Renderer(Protocol):
@@ -20,13 +20,13 @@ class Renderer(Protocol):
     def render(self, thing: Any, /) -> str | bytes: ...
 
 
-KINDS = ("statechart", "graph", "trace")
+RENDERED: tuple[Kind, ...] = ("statechart", "graph", "trace")
 
 
 def renderers(kind: str) -> dict[str, Renderer]:
     """The formats for one kind of thing, by name.  Raises ``ValueError`` for an unknown kind."""
-    if kind not in KINDS:
-        raise ValueError(f"{kind!r} is no kind of thing to render; write one of {', '.join(KINDS)}.")
+    if kind not in RENDERED:
+        raise ValueError(f"{kind!r} is no kind of thing to render; write one of {', '.join(RENDERED)}.")
     found: dict[str, Renderer] = {}
     for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
         module = _loaded(entry.name, kind) if entry.name.startswith(f"{kind}_") else None

@@ -1,29 +1,103 @@
 """A projected state graph as JSON for other programs; of any size."""
 
 import json
-from typing import Any
+from typing import Literal
 
+from typing_extensions import TypedDict
+
+from rovercheck.checker.io.document import Count
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.graph import ProjectionKind, StateGraph
 
 FORMAT = Format("json", "graph", ".json", "nodes, edges and what is known about them, with schema version")
 
-VERSION = 2
+
+class NodeRow(TypedDict):
+    """A combination of values of the variables shown, and the states behind it."""
+
+    id: int
+    values: dict[str, str]
+    """As people read them."""
+    raw: list[int]
+    valuations: Count
+    """The states behind it."""
+    initial: bool
+    component: int
+    depth: Count
+    """The number of ticks after which it is first reached."""
+    marked: Count
+    """States behind it in which the property looked for is broken, or reached."""
+    dead: Count
+    """States behind it from which no input is admissible."""
+    unexpanded: Count
+    """States behind it whose ticks are not known."""
+
+
+class EdgeRow(TypedDict):
+    """Ticks that lead from one node to another."""
+
+    source: int
+    target: int
+    steps: Count
+    """Pairs of states."""
+    sources: Count
+    """States behind the source that have such a tick."""
+    sure: bool
+    """Whether each state behind the source has such a tick."""
+    example: str
+    """Inputs of one of them."""
+    ticks: list[int]
+    """The ticks of the path shown that take it."""
+
+
+class ExactWith(TypedDict):
+    """Variables with which the graph would be exact, and its nodes then."""
+
+    variables: list[str]
+    nodes: Count
+
+
+class GraphDocument(TypedDict):
+    """What ``rovercheck graph --format json`` writes."""
+
+    format: Literal["rovercheck-graph"]
+    version: Literal[2]
+    title: str
+    variables: list[str]
+    kind: ProjectionKind
+    exact: bool
+    because: list[str]
+    """Why it is not exact."""
+    cut: str
+    """What was left out, if something was."""
+    depth: Count
+    valuations: Count
+    nodes: list[NodeRow]
+    edges: list[EdgeRow]
+    dead_ends: list[int]
+    absorbing: list[int]
+    path: list[int]
+    bad: list[int]
+    looked_for: str
+    never: dict[str, list[str]]
+    """Values of variables that no state has."""
+    exact_with: list[ExactWith]
+    notes: list[str]
 
 
 def render(graph: StateGraph, indent: int = 1) -> str:
-    """The whole graph as JSON text; ``SCHEMA`` describes it."""
+    """The whole graph as JSON text; ``checker/schemas/graph-2.json`` describes it."""
     return json.dumps(document(graph), indent=indent, ensure_ascii=False) + "\n"
 
 
-def document(graph: StateGraph) -> dict[str, Any]:
+def document(graph: StateGraph) -> GraphDocument:
     """The graph as plain lists and dictionaries."""
     return {
         "format": "rovercheck-graph",
-        "version": VERSION,
+        "version": 2,
         "title": graph.title,
         "variables": list(graph.variables),
-        "kind": str(graph.kind),
+        "kind": graph.kind,
         "exact": graph.exact,
         "because": list(graph.because),
         "cut": graph.cut,
@@ -50,48 +124,3 @@ def document(graph: StateGraph) -> dict[str, Any]:
         "exact_with": [{"variables": list(names), "nodes": nodes} for names, nodes in graph.exact_with],
         "notes": list(graph.notes),
     }  # fmt: skip
-
-
-_NUMBERS = {"type": "array", "items": {"type": "integer"}}
-_TEXT = {"type": "string"}
-
-
-def _object(**properties: Any) -> dict[str, Any]:
-    return {
-        "type": "object", "required": list(properties), "properties": properties,
-        "additionalProperties": False,
-    }  # fmt: skip
-
-
-_WHOLE = {"type": "integer"}
-_TEXTS = {"type": "array", "items": _TEXT}
-
-SCHEMA: dict[str, Any] = {
-    "$schema": "https://json-schema.org/draft/2020-12/schema",
-    "title": "rovercheck state graph",
-    **_object(
-        format={"const": "rovercheck-graph"}, version={"const": VERSION}, title=_TEXT, variables=_TEXTS,
-        kind={"enum": [str(kind) for kind in ProjectionKind]}, exact={"type": "boolean"}, because=_TEXTS,
-        cut=_TEXT, depth=_WHOLE, valuations=_WHOLE,
-        nodes={
-            "type": "array",
-            "items": _object(
-                id=_WHOLE, values={"type": "object"}, raw=_NUMBERS, valuations=_WHOLE,
-                initial={"type": "boolean"}, component=_WHOLE, depth=_WHOLE, marked=_WHOLE, dead=_WHOLE,
-                unexpanded=_WHOLE,
-            ),
-        },
-        edges={
-            "type": "array",
-            "items": _object(
-                source=_WHOLE, target=_WHOLE, steps=_WHOLE, sources=_WHOLE, sure={"type": "boolean"},
-                example=_TEXT, ticks=_NUMBERS,
-            ),
-        },
-        dead_ends=_NUMBERS, absorbing=_NUMBERS, path=_NUMBERS, bad=_NUMBERS, looked_for=_TEXT,
-        never={"type": "object", "additionalProperties": _TEXTS},
-        exact_with={"type": "array", "items": _object(variables=_TEXTS, nodes=_WHOLE)},
-        notes=_TEXTS,
-    ),
-}  # fmt: skip
-"""JSON Schema (2020-12) of the document."""

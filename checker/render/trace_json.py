@@ -5,46 +5,154 @@ The shape follows Apalache's Informal Trace Format: names of variables, then one
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Literal, NotRequired
 
+from typing_extensions import TypedDict
+
+from rovercheck.checker.io.document import Count, Ordinal, PlaceRow, place_row
 from rovercheck.checker.render.story import false_parts
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Needed, TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.place import Place
 
 FORMAT = Format("json", "trace", ".json", "all values of all ticks, readable and raw, with schema version")
 
-VERSION = 3
+
+class ValueRow(TypedDict):
+    """A value as people read it, and as the engines hold it."""
+
+    value: bool | int | str
+    raw: int
+
+
+ValueRows = dict[str, ValueRow]
+
+
+class Shows(TypedDict):
+    """What a run is of its property."""
+
+    violated: bool | None
+    """False: a witness; null: a run of no property."""
+    shortest: bool
+    """False: a shorter run may end so, too."""
+
+
+class TraceAbout(Shows):
+    """What a trace is about."""
+
+    format: Literal["rovercheck-trace"]
+    version: Literal[3]
+    system: str
+    property: str
+    text: str
+    place: PlaceRow | None
+    tick_ms: int
+    ticks: Count
+
+
+class VariableRow(TypedDict):
+    """A variable; members, or resolution and unit, are there for its type alone."""
+
+    name: str
+    input: bool
+    type: Literal["boolean", "enum", "number"]
+    members: NotRequired[dict[str, int]]
+    resolution: NotRequired[str]
+    unit: NotRequired[str]
+    doc: str
+
+
+class FiredRow(TypedDict):
+    """A transition that was taken."""
+
+    chart: str
+    source: str
+    target: str
+    label: str
+    order: Count
+    event: str | None
+    place: PlaceRow | None
+
+
+class TickAbout(TypedDict):
+    """The number of a tick from 1, and when it is."""
+
+    tick: Ordinal
+    ms: int
+
+
+class StateRow(TypedDict("StateMeta", {"#meta": TickAbout})):
+    """A tick: its inputs, the state after it, and the transitions that were taken."""
+
+    inputs: ValueRows
+    after: ValueRows
+    fired: list[FiredRow]
+
+
+class NeededRow(TypedDict):
+    """An input that had to be so, and the values that it may have had."""
+
+    tick: Ordinal
+    input: str
+    values: list[ValueRow]
+
+
+class FalseRow(TypedDict):
+    """A part of the property that is false at the end."""
+
+    name: str
+    formula: str
+    values: dict[str, str]
+
+
+class TraceDocument(TypedDict("TraceMeta", {"#meta": TraceAbout})):
+    """What ``rovercheck trace --format json`` writes."""
+
+    params: list[str]
+    """Frozen variables."""
+    vars: list[VariableRow]
+    before: ValueRows
+    """The state before the first tick, with the values of frozen variables."""
+    states: list[StateRow]
+    needed: list[NeededRow] | None
+    """Null: not examined."""
+    false: list[FalseRow]
+    loop: NotRequired[Count]
+    """After the last tick it is again as after this one."""
+    trapped: NotRequired[Ordinal]
+    """States that can follow, all of which break the property."""
 
 
 def render(trace: Trace, indent: int = 1) -> str:
-    """The whole trace as JSON text; ``SCHEMA`` describes it."""
+    """The whole trace as JSON text; ``checker/schemas/trace-3.json`` describes it."""
     return json.dumps(document(trace), indent=indent, ensure_ascii=False) + "\n"
 
 
-def document(trace: Trace) -> dict[str, Any]:
+def document(trace: Trace) -> TraceDocument:
     """The trace as plain lists and dictionaries."""
     stated = trace.property
-    return {
-        "#meta": {"format": "rovercheck-trace", "version": VERSION, "system": trace.system.name,
-                  "property": stated.id, "text": stated.text, "place": _place(stated.place),
+    found: TraceDocument = {
+        "#meta": {"format": "rovercheck-trace", "version": 3, "system": trace.system.name,
+                  "property": stated.id, "text": stated.text, "place": place_row(stated.place),
                   "tick_ms": trace.system.tick_ms, "ticks": len(trace), **shows(trace)},
         "params": [n for n in trace.before if trace.ticks and n not in trace.ticks[0].after],
         "vars": [_variable(n, v, n in trace.system.inputs) for n, v in trace.system.variables.items()],
         "before": _values(trace, trace.before),
         "states": [_state(trace, tick) for tick in trace.ticks],
         "needed": None if trace.necessary is None else [_needed(trace, one) for one in trace.needed()],
-        **({"loop": trace.loop} if trace.loop is not None else {}),
-        **({"trapped": trace.trapped} if trace.trapped is not None else {}),
         "false": [
             {"name": p.name, "formula": p.formula, "values": dict(p.values)} for p in false_parts(trace)
         ],
     }  # fmt: skip
+    if trace.loop is not None:
+        found["loop"] = trace.loop
+    if trace.trapped is not None:
+        found["trapped"] = trace.trapped
+    return found
 
 
-def shows(trace: Trace) -> dict[str, bool | None]:
+def shows(trace: Trace) -> Shows:
     """What the run is of its property: a violation or else a witness, and whether no shorter run ends so.
 
     ``violated`` is None where no property, or nothing of it, is known; ``shortest`` is False where a shorter
@@ -54,18 +162,19 @@ def shows(trace: Trace) -> dict[str, bool | None]:
     return {"violated": None if of_none else trace.breaks(), "shortest": trace.shortest}
 
 
-def _variable(name: str, variable: Var, is_input: bool) -> dict[str, Any]:
+def _variable(name: str, variable: Var, is_input: bool) -> VariableRow:
+    row: VariableRow = {"name": name, "input": is_input, "type": "boolean", "doc": variable.doc}
     match variable.sort:
         case Bool():
-            kind: dict[str, Any] = {"type": "boolean"}
+            return row
         case Enum(_, members):
-            kind = {"type": "enum", "members": dict(members)}
+            return {**row, "type": "enum", "members": dict(members)}
         case number:
-            kind = {"type": "number", "resolution": str(number.resolution), "unit": str(number.unit)}
-    return {"name": name, "input": is_input, **kind, "doc": variable.doc}
+            steps, unit = str(number.resolution), str(number.unit)
+            return {**row, "type": "number", "resolution": steps, "unit": unit}
 
 
-def _state(trace: Trace, tick: Tick) -> dict[str, Any]:
+def _state(trace: Trace, tick: Tick) -> StateRow:
     return {
         "#meta": {"tick": tick.number, "ms": trace.ms(tick.number)},
         "inputs": _values(trace, tick.inputs),
@@ -74,7 +183,7 @@ def _state(trace: Trace, tick: Tick) -> dict[str, Any]:
     }
 
 
-def _values(trace: Trace, at: Mapping[str, int]) -> dict[str, dict[str, Any]]:
+def _values(trace: Trace, at: Mapping[str, int]) -> ValueRows:
     return {
         n: {"value": _value(trace, n, raw), "raw": raw}
         for n, raw in at.items()
@@ -90,110 +199,18 @@ def _value(trace: Trace, name: str, raw: int) -> bool | int | str:
     return int(shown) if shown.lstrip("-").isdigit() else shown
 
 
-def _transition(transition: TakenTransition) -> dict[str, Any]:
+def _transition(transition: TakenTransition) -> FiredRow:
     return {
         "chart": transition.chart, "source": transition.source, "target": transition.target,
         "label": transition.label, "order": transition.order, "event": transition.event,
-        "place": _place(transition.place),
+        "place": place_row(transition.place),
     }  # fmt: skip
 
 
-def _needed(trace: Trace, one: Needed) -> dict[str, Any]:
+def _needed(trace: Trace, one: Needed) -> NeededRow:
     """An input that had to be so, and the values that it may have had."""
     return {
         "tick": one.number,
         "input": one.name,
         "values": [{"value": _value(trace, one.name, raw), "raw": raw} for raw in sorted(one.values)],
     }
-
-
-def _place(place: Place | None) -> dict[str, Any] | None:
-    """Where something is written, if that is known."""
-    return None if place is None else {"file": place.path, "line": place.line}
-
-
-_VALUE = {
-    "type": "object",
-    "required": ["value", "raw"],
-    "properties": {"value": {"type": ["boolean", "integer", "string"]}, "raw": {"type": "integer"}},
-    "additionalProperties": False,
-}
-_VALUES = {"type": "object", "additionalProperties": _VALUE}
-_TEXT = {"type": "string"}
-_PLACE = {
-    "type": ["object", "null"],
-    "required": ["file", "line"],
-    "properties": {"file": _TEXT, "line": {"type": "integer", "minimum": 1}},
-    "additionalProperties": False,
-}
-_NEEDED = {
-    "type": "object",
-    "required": ["tick", "input", "values"],
-    "properties": {
-        "tick": {"type": "integer", "minimum": 1}, "input": _TEXT,
-        "values": {"type": "array", "items": _VALUE},
-    },
-    "additionalProperties": False,
-}  # fmt: skip
-_FIRED = {
-    "type": "object",
-    "required": ["chart", "source", "target", "label", "order", "event", "place"],
-    "properties": {
-        "chart": _TEXT, "source": _TEXT, "target": _TEXT, "label": _TEXT,
-        "order": {"type": "integer", "minimum": 0}, "event": {"type": ["string", "null"]},
-        "place": _PLACE,
-    },
-    "additionalProperties": False,
-}  # fmt: skip
-
-SCHEMA: dict[str, Any] = {
-    "$schema": "https://json-schema.org/draft/2020-12/schema",
-    "title": "rovercheck trace",
-    "type": "object",
-    "required": ["#meta", "params", "vars", "before", "states", "needed", "false"],
-    "properties": {
-        "#meta": {
-            "type": "object",
-            "required": [
-                "format",
-                "version",
-                "system",
-                "property",
-                "text",
-                "place",
-                "tick_ms",
-                "ticks",
-                "violated",
-                "shortest",
-            ],
-            "properties": {
-                "format": {"const": "rovercheck-trace"},
-                "version": {"const": VERSION},
-                "place": _PLACE,
-                "violated": {"type": ["boolean", "null"]},  # false: a witness; null: a run of no property
-                "shortest": {"type": "boolean"},  # false: a shorter run may end so, too
-            },
-        },
-        "params": {"type": "array", "items": _TEXT},
-        "vars": {"type": "array", "items": {"type": "object", "required": ["name", "input", "type"]}},
-        "before": _VALUES,
-        "states": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "required": ["#meta", "inputs", "after", "fired"],
-                "properties": {
-                    "inputs": _VALUES,
-                    "after": _VALUES,
-                    "fired": {"type": "array", "items": _FIRED},
-                },
-            },
-        },
-        "needed": {"type": ["array", "null"], "items": _NEEDED},  # null: not examined
-        "loop": {"type": "integer", "minimum": 0},  # after the last tick it is again as after this one
-        "trapped": {"type": "integer", "minimum": 1},  # states that can follow, all false
-        "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},
-    },
-    "additionalProperties": False,
-}
-"""JSON Schema (2020-12) of the document."""

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Literal
 
 
 class Need(StrEnum):
@@ -25,7 +26,9 @@ class Option(StrEnum):
     """Nodes of the largest graph that is drawn."""
 
 
-KINDS: Mapping[str, str] = {
+Kind = Literal["trace", "statechart", "graph", "problem"]
+
+KINDS: Mapping[Kind, str] = {
     "trace": "rovercheck trace",
     "statechart": "rovercheck graph CHART",
     "graph": "rovercheck graph SYSTEM --project",
@@ -44,7 +47,7 @@ class Format:
     """
 
     name: str
-    kind: str
+    kind: Kind
     suffix: str
     summary: str
     needs: frozenset[Need] = frozenset()

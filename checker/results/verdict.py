@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Union
 
 from rovercheck.checker.results.trace import Trace
+from rovercheck.properties.expected import VerdictWord
 
 if TYPE_CHECKING:
     from rovercheck.checker.results.closed_set import ClosedSet
@@ -121,7 +122,7 @@ class Proved:
     because: Evidence | Trace
     engine: str
     claim: str = ""
-    word: str = field(default="proved", init=False)
+    word: VerdictWord = field(default="proved", init=False)
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ class Violated:
 
     because: Trace | Evidence
     engine: str
-    word: str = field(default="violated", init=False)
+    word: VerdictWord = field(default="violated", init=False)
 
 
 @dataclass(frozen=True)
@@ -140,7 +141,7 @@ class Unknown:
     reason: str
     depth: int
     engine: str
-    word: str = field(default="unknown", init=False)
+    word: VerdictWord = field(default="unknown", init=False)
 
 
 Verdict = Union[Proved, Violated, Unknown]

@@ -1,22 +1,23 @@
-"""What is generated and kept with the documents, so that links lead to it where no site was built, too."""
+"""What is generated and kept: pages and pictures for whoever builds no site, schemas for whoever installs."""
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-from docs.reference import forms, language, pictures
+from docs.reference import forms, language, pictures, schemas
 
 DOCS = Path(__file__).parents[1]
-KEPT: Mapping[str, Callable[[], str]] = {
-    "reference/language.md": language.page,
-    "reference/properties.md": forms.page,
-    "pictures/pump.svg": pictures.of_tutorial,
-    "pictures/pump-repaired.svg": lambda: pictures.of_tutorial(changes=2),
+KEPT: Mapping[Path, Callable[[], str]] = {
+    DOCS / "reference/language.md": language.page,
+    DOCS / "reference/properties.md": forms.page,
+    DOCS / "pictures/pump.svg": pictures.of_tutorial,
+    DOCS / "pictures/pump-repaired.svg": lambda: pictures.of_tutorial(changes=2),
+    **schemas.FILES,
 }
 
 
 def stale() -> Iterator[tuple[Path, str]]:
     """The files that are not what is generated today, each with what it should hold."""
-    for place, made in KEPT.items():
-        file, content = DOCS / place, made()
+    for file, made in KEPT.items():
+        content = made()
         if not file.is_file() or file.read_text(encoding="utf-8") != content:
             yield file, content

@@ -19,7 +19,7 @@ from rovercheck.checker.compare.search import Run
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.generate import Aim
 from rovercheck.properties.catalogue import catalogue
-from tests.conform import cover_toys
+from tests.testgen import cover_toys
 
 ROOT = Path(__file__).parents[2]
 LIFT = "--model lift"
@@ -34,7 +34,7 @@ COMMANDS = (
     f"certify certificates {LIFT}",
     f"graph lift {LIFT} --project Door -o door.svg",
     "reports -o reports",
-    "compare --system board2 --impl python:tests.conform.cross_faults:StopsLate --examples 1",
+    "compare --system board2 --impl python:tests.compare.cross_faults:StopsLate --examples 1",
     "check-log examples/logs",
     "simulate examples/scenarios/link_loss.toml -o motion.csv",
     "generate-tests --system toy --ticks 200 --jobs 1 -o tests",

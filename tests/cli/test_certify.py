@@ -11,7 +11,6 @@ import jsonschema
 import pytest
 import z3
 
-from rovercheck import checker
 from rovercheck.checker import cli
 from rovercheck.checker.certify.file import SCHEMA, Unwritable, read, write
 from rovercheck.checker.certify.terms import Malformed
@@ -20,6 +19,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.properties.catalogue import catalogue
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER
+from tests.schemas import published
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def test_certificates_are_accepted(made: Path, capsys: pytest.CaptureFixture[str
 def test_outcomes_for_machines_are_as_the_schema_says(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    schema = json.loads((Path(checker.__file__).parent / "schemas" / "certify-1.json").read_text("utf-8"))
+    schema = published("certify-1")
     changes: list[tuple[Callable[[Any], None], Exit, str]] = [
         (lambda _: None, Exit.AS_EXPECTED, "accepted"),
         (lambda d: d["certificates"][0].update(digest="0" * 64), Exit.FAILED, "rejected"),

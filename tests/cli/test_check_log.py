@@ -8,7 +8,7 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.spec_model.abstraction import boards
-from tests.conform.recorded import copied, long_log, written
+from tests.logs.recorded import copied, long_log, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"
 FAULTS = [str(EXAMPLES / "faults.csv"), "--map", str(EXAMPLES / "map.toml")]

@@ -9,17 +9,17 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from rovercheck import checker
 from rovercheck.checker.adapters.c_build import compiler
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.check_log import run as conforming
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.logs import LogResult, examine
 from rovercheck.spec_model.abstraction import boards
-from tests.conform.recorded import Row, copied, long_log, written
+from tests.logs.recorded import Row, copied, long_log, written
+from tests.schemas import published
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"
-SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "conform-1.json").read_text("utf-8"))
+SCHEMA: Any = published("conform-1")
 
 
 def check_log(*arguments: str | Path) -> Exit:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from jsonschema import validate
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
@@ -14,7 +15,8 @@ from rovercheck.checker.compare import check, recorded_runs
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.search import Run
 from rovercheck.spec_model.abstraction import boards
-from tests.conform import cross_faults
+from tests.compare import cross_faults
+from tests.schemas import published
 
 FAULTS = Path(cross_faults.__file__)
 WIDTH = 80
@@ -22,7 +24,7 @@ WIDTH = 80
 
 @pytest.fixture(autouse=True)
 def _on_counterexamples_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On the recorded counterexamples and the tests of a folder; tests/conform has the other runs."""
+    """On the recorded counterexamples and the tests of a folder; tests/compare has the other runs."""
 
     def known(env: Environment, folder: Path | None) -> Iterator[Run]:
         yield from recorded_runs.counterexamples(env.board)
@@ -66,6 +68,7 @@ def test_results_for_machines(capsys: pytest.CaptureFixture[str], tmp_path: Path
     fault = f"python:{FAULTS}:SwappedSonars"
     code = compare("--system", "board2", "--impl", fault, "--examples", "0", "--json", "-o", str(tmp_path))
     document = json.loads(capsys.readouterr().out)
+    validate(document, published("crosscheck-1"))
     [result] = document["results"]
     assert document["exit"] == code == Exit.FAILED and document["complete"]
     assert result["verdict"] == "mismatch" and result["distinct"] >= len(result["mismatches"]) > 0
@@ -154,7 +157,9 @@ def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
     program.write_text(DYING, encoding="utf-8")
     asked = ["--system", "board2", "--impl", f"command:{sys.executable} {program}"]
     code = compare(*asked, "--examples", "0", "--json", "-o", str(tests))
-    [result] = json.loads(capsys.readouterr().out)["results"]
+    found = json.loads(capsys.readouterr().out)
+    validate(found, published("crosscheck-1"))
+    [result] = found["results"]
     assert code is Exit.FAILED
     assert all("SIGSEGV" in failure["message"] for failure in result["failures"])
     assert {f["step"] for f in result["failures"]} == {21}

@@ -7,7 +7,6 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from rovercheck import checker
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.generate_tests import run as generating
 from rovercheck.checker.commands.generate_tests.run import GenerationProgress
@@ -16,9 +15,10 @@ from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.fingerprint import fingerprint
 from rovercheck.checker.testgen.generate import Aim
 from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
-from tests.conform.cover_toys import SYSTEM, TOY
+from tests.schemas import published
+from tests.testgen.cover_toys import SYSTEM, TOY
 
-SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1.json").read_text("utf-8"))
+SCHEMA: Any = published("testgen-1")
 
 
 def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

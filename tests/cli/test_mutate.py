@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-from rovercheck import checker
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.mutate import judge as mutating_judging
 from rovercheck.checker.commands.shared.codes import Exit
@@ -16,8 +15,9 @@ from rovercheck.checker.mutate import plan
 from rovercheck.checker.mutate.workers import MutantJudged, fates
 from tests.cli.test_widths import at_terminal, too_long
 from tests.mutate import lamp
+from tests.schemas import published
 
-SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "mutate-1.json").read_text("utf-8"))
+SCHEMA: Any = published("mutate-1")
 MODEL = Path(lamp.__file__)
 LAMP = ["mutate", "--model", str(MODEL), "--quiet", "--jobs", "2"]
 

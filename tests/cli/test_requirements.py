@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from jsonschema import validate
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.report.causes import with_reasons
@@ -30,6 +31,7 @@ from rovercheck.properties.requirements import Requirement, requirements
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import flag
 from rovercheck.spec_model.rover import systems
+from tests.schemas import published
 
 ROOT = Path(__file__).parents[2]
 x = flag("x")
@@ -124,6 +126,7 @@ def test_the_table_has_a_line_for_every_requirement(capfd: pytest.CaptureFixture
 def test_the_json_says_of_each_property_what_is_on_record(capfd: pytest.CaptureFixture[str]) -> None:
     code = run(["requirements", "--json"])
     found = json.loads(capfd.readouterr().out)
+    validate(found, published("requirements-1"))
     assert (found["schema"], found["exit"]) == ("rovercheck/requirements/1", int(code))
     [row] = [row for row in found["requirements"] if row["id"] == "B1-REL-04"]
     assert row["state"] == "violated"

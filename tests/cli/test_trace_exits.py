@@ -24,7 +24,7 @@ from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.trace.board_steps import concrete
 from rovercheck.checker.commands.trace.formats import exit_written
 from rovercheck.checker.commands.trace.run import TraceDisplay
-from rovercheck.checker.render import renderers, trace_itf, trace_json
+from rovercheck.checker.render import renderers, trace_itf
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.properties.catalogue import catalogue
@@ -33,6 +33,7 @@ from rovercheck.spec_model.rover import systems
 from tests.render.test_exits_ci import cases, commands, locations, valid
 from tests.render.test_exits_data import VCDVCD, dumped
 from tests.render.zoo import long_trace
+from tests.schemas import published
 from tests.traces import changed
 
 ROOT = Path(__file__).parents[2]
@@ -134,7 +135,7 @@ def spreadsheet(file: Path) -> None:
 
 def published_json(file: Path) -> None:
     found = json.loads(text(file))
-    validate(found, trace_json.SCHEMA)
+    validate(found, published("trace-3"))
     assert (
         found["#meta"]["property"] == "PB1-15" and found["#meta"]["violated"] and found["#meta"]["shortest"]
     )

@@ -17,7 +17,7 @@ class Instead:
 INSTALLS = Instead("fetches packages; `make test` itself runs in an environment that was so installed")
 MAKES = Instead("runs everything; the test looks whether the Makefile has the target")
 CROSSCHECKS = Instead(
-    "20 s and more for a board; tests/conform runs cross-checks, and tests/cli their command line"
+    "20 s and more for a board; tests/compare runs cross-checks, and tests/cli their command line"
 )
 COVERS = Instead("searches for minutes; tests/cli/test_generate_tests.py runs the command on small charts")
 MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")

@@ -1,66 +1,52 @@
-"""Faults put in by hand into charts and blocks, and whether a property of the catalogue notices them."""
+"""Faults put in by hand into charts and blocks, and whether a property of the catalogue kills them."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
+from pytest import MonkeyPatch
+
+from benchmarks.faults.edits import BlockEdit, ChartEdit, PartEdit, of_block, of_chart
 from rovercheck.checker.engines import Limits, quiet
 from rovercheck.checker.results.verdict import Verdict
 from rovercheck.checker.verify.checked import length
 from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.chart import Block, Chart
-from rovercheck.spec_model.lang.edit import edit_state, entry, everywhere, in_block, in_system, instead
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.edit import everywhere, in_block, in_system, instead
 from rovercheck.spec_model.lang.expr import Const, Expr, Var
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.rover import systems
+from tests.faults import FaultSuite
 
-ChartEdit = Callable[[Chart], Chart]
-BlockEdit = Callable[[Block], Block]
 Change = Callable[[Expr], Expr]
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A slip in one chart or block, and the property that must notice it."""
+    """A slip in one chart or block, and the property that must kill it."""
 
     text: str
     part: str
     killer: str
-    edit: Callable[[Chart | Block], Chart | Block]
+    edit: PartEdit
 
     def __str__(self) -> str:
         return f"{self.part}: {self.text}"
 
 
 def in_charts(table: Mapping[str, Sequence[tuple[str, str, ChartEdit]]]) -> list[Fault]:
-    """The faults of a table: for each chart what is wrong, who notices, and the edit."""
-
-    def of_chart(edit: ChartEdit) -> Callable[[Chart | Block], Chart]:
-        def change(part: Chart | Block) -> Chart:
-            assert isinstance(part, Chart)
-            return edit(part)
-
-        return change
-
+    """The faults of a table: for each chart what is wrong, who kills it, and the edit."""
     return [Fault(text, part, killer, of_chart(e)) for part in table for text, killer, e in table[part]]
 
 
 def in_blocks(table: Mapping[str, Sequence[tuple[str, str, BlockEdit]]]) -> list[Fault]:
     """The same for function blocks."""
-
-    def of_block(edit: BlockEdit) -> Callable[[Chart | Block], Block]:
-        def change(part: Chart | Block) -> Block:
-            assert isinstance(part, Block)
-            return edit(part)
-
-        return change
-
     return [Fault(text, part, killer, of_block(e)) for part in table for text, killer, e in table[part]]
 
 
-# --- who notices ----------------------------------------------------------------------------------
+# --- who kills ----------------------------------------------------------------------------------
 
 
 def decided(killer: str, edit: Callable[[System], System]) -> Verdict:
@@ -82,24 +68,14 @@ def with_fault(fault: Fault) -> Verdict:
     return decided(fault.killer, lambda system: in_system(system, fault.part, fault.edit))
 
 
-def noticed(fault: Fault) -> bool:
-    """Whether the verdict, or the length of the counterexample, is another than without the fault."""
-    verdict = with_fault(fault)
-    assert verdict.word != "unknown"
-    return (verdict.word, length(verdict)) != _as_specified(fault.killer)
+class ChartFaults(FaultSuite):
+    """Each fault has its killer: the property named with it."""
 
-
-# --- slips in charts ------------------------------------------------------------------------------
-
-
-def no_entry(name: str, position: int = 0) -> ChartEdit:
-    """One entry action of a state forgotten, counted from 0."""
-    return lambda c: entry(c, name, lambda acts: (*acts[:position], *acts[position + 1 :]))
-
-
-def no_during(name: str) -> ChartEdit:
-    """The during actions of a state forgotten."""
-    return lambda c: edit_state(c, name, lambda s: replace(s, during=()))
+    def killed(self, fault: Fault, patch: MonkeyPatch) -> bool:
+        """Whether the verdict, or the length of the counterexample, is another than without the fault."""
+        verdict = with_fault(fault)
+        assert verdict.word != "unknown"
+        return (verdict.word, length(verdict)) != _as_specified(fault.killer)
 
 
 # --- slips in expressions and blocks -----------------------------------------------------------------

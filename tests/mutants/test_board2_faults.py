@@ -3,8 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 
-import pytest
-
+from benchmarks.faults.edits import BlockEdit, ChartEdit, no_during, no_entry
 from rovercheck.spec_model.board2 import acquisition as acq
 from rovercheck.spec_model.board2 import coherence as coh
 from rovercheck.spec_model.lang.chart import Chart
@@ -26,18 +25,13 @@ from rovercheck.spec_model.signals import board2 as obstacles
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.common import COMMAND, RX_STATUS
 from tests.mutants.faults import (
-    BlockEdit,
-    ChartEdit,
-    Fault,
+    ChartFaults,
     expressions,
     forgotten,
     goes_to,
     in_blocks,
     in_charts,
     mistaken,
-    no_during,
-    no_entry,
-    noticed,
     reads,
     value,
 )
@@ -232,6 +226,5 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
 FAULTS = [*in_charts(CHARTS), *in_blocks(BLOCKS)]
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=str)
-def test_a_fault_changes_a_verdict(fault: Fault) -> None:
-    assert noticed(fault)
+class TestBoard2(ChartFaults):
+    FAULTS = FAULTS

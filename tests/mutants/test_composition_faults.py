@@ -1,24 +1,13 @@
 """Faults put by hand into what joins the boards: link, receiver, relay, motor driver, tasks in fine time."""
 
-import pytest
-
+from benchmarks.faults.edits import BlockEdit
 from rovercheck.spec_model.composition import counters, fine_systems, motors, receiver
 from rovercheck.spec_model.lang.edit import constant, instead, operator
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Var, flag, member
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
-from tests.mutants.faults import (
-    BlockEdit,
-    Fault,
-    expressions,
-    forgotten,
-    in_blocks,
-    mistaken,
-    noticed,
-    reads,
-    value,
-)
+from tests.mutants.faults import ChartFaults, expressions, forgotten, in_blocks, mistaken, reads, value
 
 
 def _slot(age: str, what: str) -> Var:
@@ -119,6 +108,5 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
 FAULTS = in_blocks(BLOCKS)
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=str)
-def test_a_fault_changes_a_verdict(fault: Fault) -> None:
-    assert noticed(fault)
+class TestComposition(ChartFaults):
+    FAULTS = FAULTS

@@ -5,6 +5,7 @@ from itertools import chain
 
 import pytest
 
+from benchmarks.faults.edits import BlockEdit, ChartEdit, no_during, no_entry
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.spec_model.lang.edit import (
@@ -23,20 +24,7 @@ from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.rover import charts
 from rovercheck.spec_model.signals import board1 as b1
 from tests.mutants import test_board2_faults, test_composition_faults, test_motion_faults
-from tests.mutants.faults import (
-    BlockEdit,
-    ChartEdit,
-    Fault,
-    expressions,
-    goes_to,
-    in_blocks,
-    in_charts,
-    no_during,
-    no_entry,
-    noticed,
-    value,
-    with_fault,
-)
+from tests.mutants.faults import ChartFaults, expressions, goes_to, in_blocks, in_charts, value, with_fault
 
 
 def _forget_sonar(expr: Expr) -> Expr:
@@ -144,9 +132,8 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
 FAULTS = [*in_charts(CHARTS), *in_blocks(BLOCKS)]
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=str)
-def test_a_fault_changes_a_verdict(fault: Fault) -> None:
-    assert noticed(fault)
+class TestCharts(ChartFaults):
+    FAULTS = FAULTS
 
 
 def test_every_chart_has_at_least_three_faults() -> None:

@@ -3,8 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-import pytest
-
+from benchmarks.faults.edits import ChartEdit
 from rovercheck.spec_model.lang.action import Action
 from rovercheck.spec_model.lang.edit import (
     constant,
@@ -21,7 +20,7 @@ from rovercheck.spec_model.lang.edit import (
 from rovercheck.spec_model.lang.expr import Apply, Expr, all_of
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.time import sec
-from tests.mutants.faults import ChartEdit, Fault, in_charts, noticed
+from tests.mutants.faults import ChartFaults, in_charts
 
 
 def _without(position: int) -> Callable[[Expr], Expr]:
@@ -89,6 +88,5 @@ CHARTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
 FAULTS = in_charts(CHARTS)
 
 
-@pytest.mark.parametrize("fault", FAULTS, ids=str)
-def test_a_fault_changes_a_verdict(fault: Fault) -> None:
-    assert noticed(fault)
+class TestMotion(ChartFaults):
+    FAULTS = FAULTS

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from rovercheck.checker.engines import Limits, engines, quiet
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.render import renderers
-from rovercheck.checker.render.trace_json import SCHEMA, document
+from rovercheck.checker.render.trace_json import document
 from rovercheck.checker.render.trace_table import render
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
@@ -35,6 +35,7 @@ from rovercheck.spec_model.lang.time import ms, ticks
 from rovercheck.spec_model.lang.words import after
 from tests.naive import successors, vectors
 from tests.profiles import examples
+from tests.schemas import published
 from tests.strategies_ts import booleans, transition_systems
 
 At = Mapping[str, int]
@@ -177,7 +178,7 @@ def test_a_loop_is_shown_with_its_start_and_its_timers() -> None:
     text = render(trace)
     assert "↻" in text and "this tick repeats for ever" in text and f"Loop: back to tick {trace.loop}" in text
     assert "repeats for ever" in renderers("trace")["markdown"].render(trace)
-    jsonschema.validate(document(trace), SCHEMA)
+    jsonschema.validate(document(trace), published("trace-3"))
     assert document(trace)["loop"] == trace.loop
 
 
@@ -205,7 +206,7 @@ def test_a_trap_is_a_run_into_it_and_what_it_leads_to() -> None:
     assert isinstance(verdict, Violated) and isinstance(verdict.because, Trace)
     assert verdict.because.trapped == 1 and verdict.because.ticks[-1].transitions[-1].target == "Broken"
     assert "No way back" in render(verdict.because)
-    jsonschema.validate(document(verdict.because), SCHEMA)
+    jsonschema.validate(document(verdict.because), published("trace-3"))
     assert isinstance(_decided(Recoverable(PLANT.active("Idle")), "calm").verdict, Proved)
 
 

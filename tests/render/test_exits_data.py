@@ -20,6 +20,7 @@ from rovercheck.spec_model.lang.expr import var
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, needed, odd, witness
 from tests.render.zoo import long_trace
+from tests.schemas import published
 from tests.traces import changed, trace_of
 
 
@@ -205,7 +206,7 @@ class TestJson(TraceSuite):
     ZOO = TRACES
 
     def parse(self, document: str) -> None:
-        validate(json.loads(document), trace_json.SCHEMA)
+        validate(json.loads(document), published("trace-3"))
 
     def test_values_are_readable_and_raw(self) -> None:
         state = json.loads(self.shown("long"))["states"][1]

@@ -13,7 +13,6 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.explore.graphs.projection import project
 from rovercheck.checker.explore.graphs.reachable_ticks import tabulated
-from rovercheck.checker.render import graph_json
 from rovercheck.checker.render.stategraph.findings import findings, findings_text
 from rovercheck.checker.render.stategraph.fragment import document, rows
 from rovercheck.checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
@@ -27,6 +26,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import toys
 from tests.render.conformance import Suite
 from tests.render.zoo import GRAPHS, long_trace, ring, short_trace
+from tests.schemas import published
 
 count = var("count", integer(0, 20))
 level = var("level", integer(0, 300))
@@ -282,7 +282,7 @@ class TestJson(GraphSuite):
     ZOO = BIG
 
     def parse(self, document: str) -> None:
-        validate(json.loads(document), graph_json.SCHEMA)
+        validate(json.loads(document), published("graph-2"))
 
     def test_kind_and_marks_come_back(self) -> None:
         found = json.loads(self.shown("marked"))

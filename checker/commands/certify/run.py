@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from shlex import quote
 
@@ -24,8 +24,6 @@ from rovercheck.checker.process.pool import Order, Pool
 WORKERS = 2
 WHY = 34
 """The column in which the reason of an outcome begins."""
-SCHEMA = 1
-"""The version of the JSON document."""
 SIGNS = {Accepted: "✓", Rejected: "✗", Undecided: "?"}
 WORDS = {Accepted: "accepted", Rejected: "rejected", Undecided: "undecided"}
 _SHOWN = 300
@@ -58,7 +56,9 @@ def certify(
                 out.print(wrapped(line(told, verbose, several=len(written) > 1), WHY), markup=False)
             found.append(told)
     if as_json:
-        print(json_text(document(found, len(written))))
+        from rovercheck.checker.commands.certify.document import document
+
+        print(json_text(document(found, len(written), code(found))))
     else:
         summary(found, len(written))
     return code(found)
@@ -152,26 +152,6 @@ def line(told: DerivedVerdict, verbose: bool, several: bool = False) -> str:
 def shown(text: str) -> str:
     """What a file says, in one line: no character in it moves the cursor or begins a new line."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
-
-
-def document(found: Sequence[DerivedVerdict], count: int) -> dict[str, object]:
-    """All of it for machines; ``checker/schemas/certify-1.json`` describes it."""
-    told = sorted(found, key=lambda one: (one.id, one.file))
-    return {
-        "schema": f"rovercheck/certify/{SCHEMA}",
-        "exit": int(code(found)),
-        "files": count,
-        "properties": [
-            {
-                "id": one.id,
-                "file": one.file,
-                "outcome": WORDS[type(one.outcome)],
-                "verdict": one.verdict,
-                **asdict(one.outcome),
-            }
-            for one in told
-        ],
-    }
 
 
 def code(found: Sequence[DerivedVerdict]) -> Exit:

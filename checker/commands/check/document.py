@@ -1,37 +1,97 @@
 """Verdicts as JSON, as ``rovercheck check --json`` prints them (``checker/schemas/check-1.json``)."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Literal
+
+from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.check.certificates import outcome
+from rovercheck.checker.commands.check.chain_status import ChainStatus
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.io.document import Count, Text
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.verify.checked import CheckedProperty, length, worst
+from rovercheck.properties.expected import VerdictWord
 
-if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.chain_status import ChainStatus
-
-SCHEMA = 1
-CASE = {True: "occurs", False: "never", None: "unknown"}
+Case = Literal["occurs", "never", "unknown"]
+CASE: dict[bool | None, Case] = {True: "occurs", False: "never", None: "unknown"}
 """Whether the case occurs that a proof speaks of."""
+
+
+class ChainRow(TypedDict):
+    """What becomes of a chain of the rover's promises across the link."""
+
+    promise: str
+    over: str
+    """The property across the link that the chain leads to."""
+    holds: bool | None
+    """Whether every link holds; null if that is not known."""
+    failing: list[str]
+    """The links that are violated, or else not decided."""
+
+
+class VerdictRow(TypedDict):
+    """A property with its verdict."""
+
+    id: Text
+    text: str
+    """The property in words."""
+    requirements: list[str]
+    system: str
+    """The system that the verdict is about."""
+    verdict: VerdictWord
+    in_part: bool
+    """Proved for some runs only; see the notes of the system."""
+    engine: str
+    evidence: str
+    """What the verdict rests on, in words."""
+    ticks: Count | None
+    """The length of the run, if it rests on one."""
+    expected: VerdictWord
+    """The verdict on record."""
+    as_expected: bool
+    certificate: dict[str, str] | None
+    """What checking the proof again gave: its outcome, with who showed it or why it did not succeed."""
+    case: Case | None
+    """Whether the case occurs that a proof speaks of; null if it speaks of none, or that was not asked."""
+    noticed: bool | None
+    """Whether a fault of the charts is on record that the proof notices; null if none is looked for, or none
+    are kept."""
+    because: str
+    """The reason on record for an expected violation."""
+
+
+class CheckDocument(TypedDict):
+    """What ``rovercheck check --json`` prints."""
+
+    schema: Literal["rovercheck/check/1"]
+    variant: str
+    """How the charts were changed; empty for the charts as specified."""
+    complete: bool
+    """False if the command was ended before it had decided every property: by Ctrl-C, or by a mistake in the
+    model."""
+    exit: Exit
+    chains: list[ChainRow]
+    """What becomes of the chains of the rover's promises across the link; empty where they were not asked
+    for."""
+    results: list[VerdictRow]
 
 
 def document(
     found: Sequence[CheckedProperty],
     ended: Exit | None = None,
     faulty: bool = False,
-    chains: Sequence["ChainStatus"] = (),
-) -> dict[str, object]:
+    chains: Sequence[ChainStatus] = (),
+) -> CheckDocument:
     """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
 
     ``faulty``: an engine failed, which is an internal error whatever the others found.
     """
-    code = Exit.INTERNAL if faulty else worst(found) if ended is None else ended
     return {
-        "schema": f"rovercheck/check/{SCHEMA}",
+        "schema": "rovercheck/check/1",
         "variant": found[0].variant if found else "",
         "complete": ended is None,
-        "exit": int(code),
+        "exit": Exit.INTERNAL if faulty else worst(found) if ended is None else ended,
         "chains": [
             {
                 "promise": one.promise.id,
@@ -45,7 +105,7 @@ def document(
     }
 
 
-def _row(compared: CheckedProperty) -> dict[str, object]:
+def _row(compared: CheckedProperty) -> VerdictRow:
     prop, verdict = compared.result.property, compared.verdict
     return {
         "id": prop.id,

@@ -1,11 +1,10 @@
 """``rovercheck check-log``: logs checked against the properties and the charts."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from rovercheck.checker.commands.check_log import LogOptions
-from rovercheck.checker.commands.check_log.document import as_json
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome, page, summary
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import error_message
@@ -15,9 +14,6 @@ from rovercheck.checker.compare.variants import varied
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine, read_map
 from rovercheck.checker.model.variant import Variant
-
-SCHEMA = "rovercheck/conform/1"
-"""The format of the JSON documents, and its version."""
 
 SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
 GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
@@ -66,7 +62,9 @@ def _log(place: Path, asked: LogRequest) -> Exit:
         raise UsageError(f"{place}: {error}") from error
     code = _code_of(found)
     if asked.options.as_json:
-        print(json_text({"schema": SCHEMA, "exit": code, **as_json(found, asked.charts)}))
+        from rovercheck.checker.commands.check_log.document import log_document
+
+        print(json_text(log_document(found, asked.charts, code)))
     else:
         out.print(page(found, asked.options.verbose, asked.charts), markup=False)
     return code
@@ -104,21 +102,12 @@ def _folder(folder: Path, asked: LogRequest) -> Exit:
             found[log.name] = asked.outcome(log)
     code = _code(list(found.values()))
     if asked.options.as_json:
-        entries = [_entry(n, r, asked.charts) for n, r in found.items()]
-        print(json_text({"schema": SCHEMA, "exit": code, "logs": entries}))
+        from rovercheck.checker.commands.check_log.document import folder_document
+
+        print(json_text(folder_document(found, asked.charts, code)))
     else:
         out.print(summary(found, asked.charts), markup=False)
     return code
-
-
-def _entry(name: str, found: Outcome, charts: str) -> Mapping[str, object]:
-    match found:
-        case LogResult():
-            return as_json(found, charts)
-        case LogFault(message):
-            return {"log": name, "error": message, "internal": True}
-        case _:
-            return {"log": name, "error": str(found)}
 
 
 def _code(found: Sequence[Outcome]) -> Exit:

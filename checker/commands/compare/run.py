@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rovercheck.checker.adapters import start
 from rovercheck.checker.adapters.implementation import ImplementationError
-from rovercheck.checker.commands.compare.text import CrosscheckReport, report, row, shown
+from rovercheck.checker.commands.compare.text import CrosscheckReport, report, shown
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
@@ -22,8 +22,6 @@ from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import did_you_mean
-
-SCHEMA = 1
 
 
 @dataclass(frozen=True)
@@ -68,6 +66,8 @@ def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exi
             break
     code = worst(reports)
     if as_json:
+        from rovercheck.checker.commands.compare.document import document
+
         print(json_text(document(reports, code), ascii=True))
     return code
 
@@ -150,13 +150,3 @@ def worst(reports: Sequence[CrosscheckReport]) -> Exit:
     if any(r.result.interrupted for r in reports):
         return Exit.INTERRUPTED
     return Exit.AS_EXPECTED if all(r.result.conforms for r in reports) else Exit.INCONCLUSIVE
-
-
-def document(reports: Sequence[CrosscheckReport], code: Exit) -> dict[str, object]:
-    """The results as JSON."""
-    return {
-        "schema": f"rovercheck/crosscheck/{SCHEMA}",
-        "complete": not any(r.result.interrupted for r in reports),
-        "exit": int(code),
-        "results": [row(r) for r in reports],
-    }

@@ -1,7 +1,7 @@
 """The report of a cross-check, for people in 80 columns and for machines."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
 
@@ -240,62 +240,3 @@ def _differences(result: CompareResult) -> Iterator[str]:
 
 def _given_up(result: CompareResult) -> bool:
     return len(result.failures) >= result.allowance.failures
-
-
-def row(of: CrosscheckReport) -> dict[str, object]:
-    """The result of one board for machines."""
-    result, (took, every) = of.result, of.result.transitions
-    met, sides = result.coverage.boundaries()
-    return {
-        "system": result.board.name,
-        "implementation": of.address,
-        "charts": of.charts or "as specified",
-        "verdict": _word(result),
-        "steps": result.coverage.steps,
-        "runs": result.coverage.runs,
-        "examples": result.examples,
-        "seed": result.seed,
-        "arrows": {"taken": took, "all": every, "missing": [str(a) for a in result.missing]},
-        "boundaries": {"met": met, "all": sides},
-        "uncompared": list(result.uncompared),
-        "tried": [asdict(stage) for stage in result.stages],
-        "compared": result.compared,
-        "distinct": len(result.mismatches),
-        "mismatches": [
-            _row(m, _file_of(m, of), number < result.small) for number, m in enumerate(result.mismatches)
-        ],
-        "failures": [_failed(f, _file_of(f, of)) for f in result.failures],
-    }
-
-
-def _file_of(found: StepMismatch | Failure, of: CrosscheckReport) -> str:
-    """The test that was written for it, if any."""
-    return next(
-        (str(file) for one, file in zip(shown(of.result), of.files, strict=False) if one is found), ""
-    )
-
-
-def _word(result: CompareResult) -> str:
-    if result.mismatches:
-        return "mismatch"
-    return "failure" if result.failures else "conforms" if result.conforms else "inconclusive"
-
-
-def _failed(failure: Failure, file: str) -> dict[str, object]:
-    inputs = dict(failure.steps[-1].inputs) if failure.steps else {}
-    place = {"origin": failure.origin, "step": failure.tick, "inputs": inputs}
-    return {**place, "message": failure.message, "test": file}
-
-
-def _row(mismatch: StepMismatch, file: str, small: bool) -> dict[str, object]:
-    return {
-        "step": mismatch.tick,
-        "origin": mismatch.origin,
-        "small": small,
-        "inputs": dict(mismatch.steps[-1].inputs),
-        "differences": [
-            {"output": d.name, "expected": d.expected, "actual": d.actual} for d in mismatch.differences
-        ],
-        "arrows": [str(taken(fired)) for fired in mismatch.transitions],
-        "test": file,
-    }

@@ -5,12 +5,13 @@ import platform
 import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 from time import monotonic
+from typing import Literal
 
 from rich.table import Table
 from rich.text import Text
@@ -32,7 +33,6 @@ TRIAL_DEPTH = 20
 """How many ticks of its question an engine without a proof must have seen."""
 TRIAL_SECONDS = 60.0
 """What each engine may take for its question; a tenth of a second is usual."""
-SCHEMA = 1
 """The version of the JSON document."""
 
 REQUIRED = {
@@ -72,6 +72,9 @@ PROGRAMS = {
 """Programs that add something; the first of each list that is found counts."""
 
 
+FindingKind = Literal["package", "machine", "program", "trial"]
+
+
 @dataclass(frozen=True)
 class DoctorFinding:
     """One thing looked at: what it is, what was found, and whether it is as needed.
@@ -79,7 +82,7 @@ class DoctorFinding:
     ``required`` says whether rovercheck works without it, ``adds`` what it is for or how to get it.
     """
 
-    kind: str
+    kind: FindingKind
     name: str
     found: str
     ok: bool
@@ -95,12 +98,9 @@ def doctor(as_json: bool, quiet: bool = False) -> Exit:
     found = list(findings())
     broken = [f for f in found if f.required and not f.ok]
     if as_json:
-        document = {
-            "schema": f"rovercheck/doctor/{SCHEMA}",
-            "ok": not broken,
-            "findings": [asdict(f) for f in found],
-        }
-        print(json_text(document, ascii=True))
+        from rovercheck.checker.commands.doctor.document import document
+
+        print(json_text(document(found, not broken), ascii=True))
     else:
         _print_findings([f for f in found if not (quiet and f.ok)], broken)
     return Exit.FAILED if broken else Exit.AS_EXPECTED

@@ -21,7 +21,6 @@ from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.rover import systems
 
-SCHEMA = 1
 SHOWN = 10
 """Goals without a test that are named; the others are counted, and all are in the JSON."""
 
@@ -64,7 +63,9 @@ def generate_tests(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
         if found[-1].interrupted:
             break
     if as_json:
-        print(json_text(document(found), ascii=True))
+        from rovercheck.checker.commands.generate_tests.document import document
+
+        print(json_text(document(found, _code(found)), ascii=True))
     return _code(found)
 
 
@@ -194,41 +195,6 @@ def _listed(sign: str, word: str, why: Mapping[str, str], goals: Sequence[CoverG
 
 def _wrapped(text: str, first: str, then: str) -> list[str]:
     return filled(text, out.width, first, then).split("\n")
-
-
-def document(found: Sequence[Generated]) -> dict[str, object]:
-    """All of it for machines; ``checker/schemas/testgen-1.json`` describes it."""
-    return {
-        "schema": f"rovercheck/testgen/{SCHEMA}",
-        "complete": not any(one.interrupted for one in found),
-        "exit": int(_code(found)),
-        "boards": [_board(one) for one in found],
-    }
-
-
-def _board(one: Generated) -> dict[str, object]:
-    kept = one.kept
-    test_of = {goal: name for name, reached, _ in kept.tests for goal in reached}
-    goals = [
-        {
-            "id": g.id,
-            "kind": g.kind,
-            "text": g.text,
-            "verdict": _verdict(g.id, test_of, kept),
-            "test": test_of.get(g.id),
-            "shortest": g.id in kept.shortest,
-            "because": kept.uncoverable.get(g.id) or kept.unknown.get(g.id),
-        }
-        for g in one.aim.goals
-    ]
-    tests = [{"name": n, "steps": len(script), "goals": reached} for n, reached, script in kept.tests]
-    return {"board": one.aim.board.name, "goals": goals, "tests": tests, "files": one.files}
-
-
-def _verdict(id: str, test_of: Mapping[str, str], kept: KeptTests) -> str:
-    if id in test_of:
-        return "covered"
-    return "uncoverable" if id in kept.uncoverable else "unknown"
 
 
 def _code(found: Sequence[Generated]) -> Exit:

@@ -1,36 +1,222 @@
 """``rovercheck list --json``: what there is, for machines; ``checker/schemas/list-1.json`` describes it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
+from typing import Final, Generic, Literal, TypeVar
+
+from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.engines import ALL, AUTO, engines
+from rovercheck.checker.io.document import Count, Ordinal, PlaceRow, Text, place_row
 from rovercheck.checker.model import Model
+from rovercheck.checker.results.format import Kind, Need
+from rovercheck.properties.expected import VerdictWord
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.repairs import proposals
 
-Item = Mapping[str, object]
-SCHEMA = 1
-IN_SCHEMA = {"interpretations": "readings"}
-"""What version 1 of the document calls a list by an older name."""
+SCHEMA: Final = "rovercheck/list/1"
 
 
-def document(what: str, chosen: Sequence[Property], model: Model | None) -> Item:
+class PropertyRow(TypedDict):
+    """A property."""
+
+    id: Text
+    text: str
+    formally: list[str]
+    """What is checked, in words: the sentence, then each formula that it names."""
+    system: str
+    """The system that it is about."""
+    area: str
+    requirements: list[str]
+    readings: list[str]
+    """Interpretations under which it is stated."""
+    costly: bool
+    """Decided only with --full."""
+    expected: VerdictWord
+    """The verdict on record."""
+    because: str
+    """The reason on record, if it is no proof."""
+    place: PlaceRow | None
+    """Where it is written, if that is known."""
+
+
+class SystemRow(TypedDict):
+    """A system."""
+
+    name: Text
+    text: str
+    notes: list[str]
+    charts: list[str]
+    blocks: list[str]
+    tick_ms: Ordinal
+    more_runs: bool
+    """It has runs that the specification does not have."""
+    fewer_runs: bool
+    """It lacks some runs of the specification."""
+    assumptions: list[str]
+    """Ids of what is assumed of its environment."""
+
+
+class ChartRow(TypedDict):
+    """A chart."""
+
+    name: Text
+    text: str
+    states: Count
+    arrows: Count
+    """Its transitions."""
+
+
+class RequirementItem(TypedDict):
+    """A requirement."""
+
+    id: Text
+    text: str
+    source: str
+    checkable: str
+    reason: str
+    """Why no property covers it."""
+    properties: list[str]
+    """Ids of those that cover it."""
+
+
+class AssumptionRow(TypedDict):
+    """An assumption, and the systems that make it."""
+
+    id: Text
+    text: str
+    systems: list[str]
+
+
+class InterpretationItem(TypedDict):
+    """A sentence of the document with several meanings."""
+
+    id: Text
+    about: str
+    says: str
+    choices: dict[str, str]
+    """Each choice, and what it means."""
+    default: str
+    not_modelled: dict[str, str]
+    """Choices that the charts cannot show, and why."""
+    scenario: str
+    """What tells the choices apart."""
+    because: str
+    """Why the default is the default."""
+
+
+class RepairRow(TypedDict):
+    """A repair."""
+
+    name: Text
+    text: str
+    fixes: list[str]
+    """Ids of properties that hold with it."""
+    gives_up: dict[str, str]
+    """Ids of properties that no longer hold, and why."""
+    changes: list[str]
+    """Charts and blocks."""
+    readings: dict[str, str]
+    """Interpretations taken instead of the default."""
+
+
+class EngineRow(TypedDict):
+    """An engine, or a name that stands for several."""
+
+    name: Text
+    text: str
+    engines: list[str]
+    """The engines that the name stands for."""
+
+
+class FormatRow(TypedDict):
+    """A format of output."""
+
+    name: Text
+    of: Kind
+    suffix: str
+    """What the names of its files end with."""
+    text: str
+    needs: list[Need]
+    """What is worked out before anything is written: the run as the boards see it, a run to every state."""
+
+
+What = TypeVar("What")
+Row = TypeVar("Row")
+
+
+class ListOf(TypedDict, Generic[What, Row]):
+    """What ``rovercheck list WHAT --json`` prints."""
+
+    schema: Literal["rovercheck/list/1"]
+    what: What
+    items: list[Row]
+
+
+PropertyList = ListOf[Literal["properties"], PropertyRow]
+SystemList = ListOf[Literal["systems"], SystemRow]
+ChartList = ListOf[Literal["charts"], ChartRow]
+RequirementList = ListOf[Literal["requirements"], RequirementItem]
+AssumptionList = ListOf[Literal["assumptions"], AssumptionRow]
+InterpretationList = ListOf[Literal["readings"], InterpretationItem]
+RepairList = ListOf[Literal["repairs"], RepairRow]
+EngineList = ListOf[Literal["engines"], EngineRow]
+FormatList = ListOf[Literal["formats"], FormatRow]
+
+ListDocument = (
+    PropertyList
+    | SystemList
+    | ChartList
+    | RequirementList
+    | AssumptionList
+    | InterpretationList
+    | RepairList
+    | EngineList
+    | FormatList
+)
+"""What ``rovercheck list WHAT --json`` prints."""
+
+
+def document(what: str, chosen: Sequence[Property], model: Model | None) -> ListDocument:
     """One of the lists; ``chosen`` are the properties if it is theirs.
 
-    ``model`` is None for a list that is the same whatever is checked.
+    ``model`` is None for a list that is the same whatever is checked.  Raises ``KeyError`` for other names.
     """
-    items = ITEMS[what]() if model is None else _of(model, what, chosen)
-    return {"schema": f"rovercheck/list/{SCHEMA}", "what": IN_SCHEMA.get(what, what), "items": items}
+    return _general(what) if model is None else _of(model, what, chosen)
 
 
-def _of(model: Model, what: str, chosen: Sequence[Property]) -> list[Item]:
-    return [_property(p, model) for p in chosen] if what == "properties" else OF_MODEL[what](model)
+def _general(what: str) -> ListDocument:
+    match what:
+        case "interpretations":  # by an older name in version 1 of the document
+            return InterpretationList(schema=SCHEMA, what="readings", items=_interpretations())
+        case "repairs":
+            return RepairList(schema=SCHEMA, what="repairs", items=_repairs())
+        case "engines":
+            return EngineList(schema=SCHEMA, what="engines", items=_engines())
+        case "formats":
+            return FormatList(schema=SCHEMA, what="formats", items=_formats())
+    raise KeyError(what)
 
 
-def _property(prop: Property, model: Model) -> Item:
+def _of(model: Model, what: str, chosen: Sequence[Property]) -> ListDocument:
+    match what:
+        case "properties":
+            return PropertyList(schema=SCHEMA, what="properties", items=[_property(p, model) for p in chosen])
+        case "systems":
+            return SystemList(schema=SCHEMA, what="systems", items=_systems(model))
+        case "charts":
+            return ChartList(schema=SCHEMA, what="charts", items=_charts(model))
+        case "requirements":
+            return RequirementList(schema=SCHEMA, what="requirements", items=_requirements(model))
+        case "assumptions":
+            return AssumptionList(schema=SCHEMA, what="assumptions", items=_assumptions(model))
+    raise KeyError(what)
+
+
+def _property(prop: Property, model: Model) -> PropertyRow:
     on_record = model.expected(prop.id)
     return {
         "id": prop.id,
@@ -43,15 +229,15 @@ def _property(prop: Property, model: Model) -> Item:
         "costly": prop.costly,
         "expected": on_record.verdict,
         "because": on_record.because,
-        "place": {"file": prop.place.path, "line": prop.place.line} if prop.place else None,
+        "place": place_row(prop.place),
     }
 
 
-def _systems(model: Model) -> list[Item]:
+def _systems(model: Model) -> list[SystemRow]:
     return [_system(system) for system in model.systems.values()]
 
 
-def _system(system: System) -> Item:
+def _system(system: System) -> SystemRow:
     return {
         "name": system.name,
         "text": system.text,
@@ -65,11 +251,11 @@ def _system(system: System) -> Item:
     }
 
 
-def _charts(model: Model) -> list[Item]:
+def _charts(model: Model) -> list[ChartRow]:
     return [_chart(chart) for chart in model.charts.values()]
 
 
-def _chart(chart: Chart) -> Item:
+def _chart(chart: Chart) -> ChartRow:
     return {
         "name": chart.name,
         "text": chart.text,
@@ -78,7 +264,7 @@ def _chart(chart: Chart) -> Item:
     }
 
 
-def _requirements(model: Model) -> list[Item]:
+def _requirements(model: Model) -> list[RequirementItem]:
     covering: dict[str, list[str]] = {}
     for prop in model.properties.values():
         for id in prop.covers:
@@ -96,7 +282,7 @@ def _requirements(model: Model) -> list[Item]:
     ]
 
 
-def _assumptions(model: Model) -> list[Item]:
+def _assumptions(model: Model) -> list[AssumptionRow]:
     holders: dict[tuple[str, str], list[str]] = {}
     for system in model.systems.values():
         for one in system.assumptions:
@@ -104,7 +290,7 @@ def _assumptions(model: Model) -> list[Item]:
     return [{"id": id, "text": text, "systems": names} for (id, text), names in holders.items()]
 
 
-def _interpretations() -> list[Item]:
+def _interpretations() -> list[InterpretationItem]:
     return [
         {
             "id": one.id,
@@ -120,7 +306,7 @@ def _interpretations() -> list[Item]:
     ]
 
 
-def _repairs() -> list[Item]:
+def _repairs() -> list[RepairRow]:
     return [
         {
             "name": one.name,
@@ -134,9 +320,9 @@ def _repairs() -> list[Item]:
     ]
 
 
-def _engines() -> list[Item]:
+def _engines() -> list[EngineRow]:
     """The engines, and the names that stand for several of them."""
-    single: list[Item] = [
+    single: list[EngineRow] = [
         {"name": e.NAME, "text": e.SUMMARY, "engines": [e.NAME]} for e in engines().values()
     ]
     names = list(engines())
@@ -147,7 +333,7 @@ def _engines() -> list[Item]:
     ]
 
 
-def _formats() -> list[Item]:
+def _formats() -> list[FormatRow]:
     from rovercheck.checker.commands.list.run import formats
 
     return [
@@ -156,15 +342,4 @@ def _formats() -> list[Item]:
     ]
 
 
-OF_MODEL: Mapping[str, Callable[[Model], list[Item]]] = {
-    "systems": _systems,
-    "charts": _charts,
-    "requirements": _requirements,
-    "assumptions": _assumptions,
-}
-ITEMS: Mapping[str, Callable[[], list[Item]]] = {
-    "interpretations": _interpretations,
-    "repairs": _repairs,
-    "engines": _engines,
-    "formats": _formats,
-}
+__all__ = ["document"]

@@ -106,8 +106,7 @@ def list_engines() -> None:
 def formats() -> list[Format]:
     """Every format in which something is written, by what it shows."""
     from rovercheck.checker.export import exporters
-    from rovercheck.checker.render import KINDS as RENDERED
-    from rovercheck.checker.render import renderers
+    from rovercheck.checker.render import RENDERED, renderers
 
     shown = (one.FORMAT for kind in RENDERED for one in renderers(kind).values())
     return [*shown, *(one.FORMAT for one in exporters().values())]

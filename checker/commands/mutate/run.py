@@ -6,7 +6,6 @@ from random import Random
 
 from rovercheck.checker.commands.check.premises import recordable
 from rovercheck.checker.commands.mutate import MutateOptions
-from rovercheck.checker.commands.mutate.document import document
 from rovercheck.checker.commands.mutate.judge import judge
 from rovercheck.checker.commands.mutate.results import MutationResults, One
 from rovercheck.checker.commands.mutate.text import report
@@ -96,6 +95,8 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
     if wanted.record_mutants:
         _record(model, found, {mutant.id for _, mutant in made}, wanted.alone)
     if as_json:
+        from rovercheck.checker.commands.mutate.document import document
+
         print(json_text(document(found, code), ascii=True))
     else:
         if wanted.by_place:

@@ -17,7 +17,6 @@ from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.forms import Property, Reachable
 
-SCHEMA = 1
 EXPECTED = "Verdicts are those that the baseline expects; --check decides them now."
 DECIDED = "Verdicts were decided now."
 REACHED = (
@@ -69,6 +68,8 @@ def show(rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, a
     """Print the matrix as a table or as JSON."""
     code = Exit.FAILED if any(row.open for row in rows) else Exit.AS_EXPECTED
     if as_json:
+        from rovercheck.checker.commands.requirements.document import document
+
         print(json_text(document(rows, verdicts, origin, code), ascii=True))
         return code
     listed(
@@ -126,36 +127,6 @@ def _only_stated(states: Sequence[str]) -> str:
 def _kinds_of_reasons(rows: Sequence[RequirementCoverage]) -> str:
     kinds = [row.requirement.reason.partition(":")[0] for row in rows if row.requirement.reason]
     return ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none given"
-
-
-def document(
-    rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, code: Exit
-) -> dict[str, object]:
-    """The matrix as JSON."""
-    return {
-        "schema": f"rovercheck/requirements/{SCHEMA}",
-        "verdicts": origin,
-        "exit": int(code),
-        "requirements": [_row(row, verdicts) for row in rows],
-    }
-
-
-def _row(row: RequirementCoverage, verdicts: Verdicts) -> dict[str, object]:
-    item = row.requirement
-    return {
-        "id": item.id,
-        "text": item.text,
-        "source": item.source,
-        "bounds": item.bounds,
-        "kind": item.kind,
-        "checkable": item.checkable,
-        "state": row.state(verdicts),
-        "reason": item.reason,
-        "properties": [
-            {"id": p.id, "verdict": verdicts[p.id], "covers": not isinstance(p.form, Reachable)}
-            for p in row.properties
-        ],
-    }
 
 
 # --- the page of the reports ---------------------------------------------------------------------

@@ -17,7 +17,7 @@ from rovercheck.checker.logs.program import NeededInputs
 from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.abstraction.stamps import NOW
-from tests.conform.recorded import copied, long_log
+from tests.logs.recorded import copied, long_log
 from tests.profiles import examples
 
 SCENARIOS = Path(__file__).parents[2] / "examples" / "scenarios"

@@ -18,7 +18,7 @@ from rovercheck.checker.adapters import AdapterLimits, adapters, start
 from rovercheck.checker.adapters.implementation import ImplementationError, notes, run
 from rovercheck.checker.adapters.python import start as start_python
 from rovercheck.spec_model.abstraction import boards
-from tests.conform.adapters_counter import TELL
+from tests.adapters.adapters_counter import TELL
 from tests.profiles import examples
 
 HERE = Path(__file__).parent
@@ -176,7 +176,7 @@ class Isolated(Contract):
     def test_nothing_is_left_when_we_are_ended(self, how, tmp_path):
         """Ctrl-C in the middle of a step without end; or no time to do anything."""
         program = (
-            "from tests.conform.test_adapters import *\n"
+            "from tests.adapters.test_adapters import *\n"
             f"started = start({self.address!r}, BOARD, PATIENT)\n"
             "print(int(started.step(AT_REST)['omega_user']), flush=True)\n"
             "started.step(trapped(3))\n"

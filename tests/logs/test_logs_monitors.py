@@ -41,7 +41,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.time import ticks
 from rovercheck.spec_model.lang.words import held, once, previous, rising
 from rovercheck.spec_model.rover import systems
-from tests.conform.recorded import Row, copied, long_log, written
+from tests.logs.recorded import Row, copied, long_log, written
 from tests.profiles import examples
 
 p, q, r = flag("p"), flag("q"), flag("r")

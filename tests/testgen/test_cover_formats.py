@@ -20,7 +20,7 @@ from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.testgen.scripts import Script, script, steps, unfolded
 from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW
-from tests.conform.cover_toys import TOY
+from tests.testgen.cover_toys import TOY
 
 LAMP = """
 #include "cover_toy.h"

@@ -14,6 +14,7 @@ from rovercheck.checker.compare.beside import ComparedStep, compared, played
 from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.spec_model.abstraction import boards
+from tests.faults import FaultSuite
 
 Changes = dict[str, Change]
 
@@ -84,10 +85,14 @@ def test_there_are_forty_faults_of_ten_kinds_on_both_boards() -> None:
     assert {fault.board for fault in faults()} == {"board1", "board2"}
 
 
-@pytest.mark.parametrize("name", BY_HAND)
-def test_a_fault_put_in_by_hand_is_found(name: str) -> None:
-    [fault] = [f for f in faults() if str(f) == name]
-    assert _differs(fault, RUNS[BY_HAND[name]])
+class TestByHand(FaultSuite):
+    """The run beside the fault shows it."""
+
+    FAULTS = tuple(BY_HAND)
+
+    def killed(self, fault: str, patch: pytest.MonkeyPatch) -> bool:
+        [found] = [f for f in faults() if str(f) == fault]
+        return _differs(found, RUNS[BY_HAND[fault]])
 
 
 def _differs(fault: Fault, run: Stimulus) -> bool:

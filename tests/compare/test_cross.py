@@ -24,8 +24,9 @@ from rovercheck.checker.compare.smaller import Budget, smaller
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.testgen.scripts import blocks, steps
 from rovercheck.spec_model.abstraction import boards
-from tests.conform import cross_faults
-from tests.conform.cross_faults import FAULTS
+from tests.compare import cross_faults
+from tests.compare.cross_faults import FAULTS
+from tests.faults import FaultSuite
 
 EXAMPLES = {"board1": 5, "board2": 10}
 """Random runs beside the fixed ones: enough for these faults."""
@@ -36,7 +37,7 @@ OURS = {
     "board2": "rovercheck.supervisor.board2.board:Board2",
 }
 HERE = Path(cross_faults.__file__)
-PLANTED = [(board, fault.__name__) for board, faults in FAULTS.items() for fault in faults]
+PLANTED = tuple(f"{board} {fault.__name__}" for board, faults in FAULTS.items() for fault in faults)
 
 
 def running(board: str, target: str) -> Implementation:
@@ -51,11 +52,15 @@ def test_our_supervisor_conforms(board: str) -> None:
     assert suite.steps > 5_000 and len(suite.runs) > EXAMPLES[board]
 
 
-@pytest.mark.parametrize(("board", "fault"), PLANTED)
-def test_a_planted_fault_is_found(board: str, fault: str) -> None:
-    faulty = running(board, f"{HERE}:{fault}")
-    found = quick_check(board, faulty, examples=EXAMPLES[board])
-    assert isinstance(found, StepMismatch) and found.differences
+class TestPlanted(FaultSuite):
+    """Supervisors with a fault each, on their boards."""
+
+    FAULTS = PLANTED
+
+    def killed(self, fault: str, patch: pytest.MonkeyPatch) -> bool:
+        board, name = fault.split()
+        found = quick_check(board, running(board, f"{HERE}:{name}"), examples=EXAMPLES[board])
+        return isinstance(found, StepMismatch) and bool(found.differences)
 
 
 def made_small(board: str, fault: str) -> StepMismatch:

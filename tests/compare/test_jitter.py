@@ -15,7 +15,7 @@ from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.abstraction.board import in_steps_of
 from rovercheck.spec_model.abstraction.signals import units
 from rovercheck.spec_model.rover import systems
-from tests.conform.recorded import FIRMWARE
+from tests.logs.recorded import FIRMWARE
 
 SHOWN: Mapping[str, tuple[str, str, str]] = {
     "PB1-43d": ("board1", "rx_status", "rx_status"),

@@ -9,7 +9,7 @@ import pytest
 from rovercheck.checker.logs import ColumnMap, LogError, examine, read_map
 from rovercheck.checker.logs.log import LogBlock, open_log
 from rovercheck.spec_model.abstraction import boards
-from tests.conform.recorded import Row, copied, long_log, text, written
+from tests.logs.recorded import Row, copied, long_log, text, written
 
 SHORT = 40
 

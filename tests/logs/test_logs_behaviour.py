@@ -18,7 +18,7 @@ from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.interpret import Interpreter
-from tests.conform.recorded import Row, copied, frozen, late, long_log, record, swapped, written
+from tests.logs.recorded import Row, copied, frozen, late, long_log, record, swapped, written
 from tests.profiles import examples
 
 SECOND = 50

@@ -30,7 +30,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.rover import systems
-from tests.conform.cover_toys import AFTER_NEVER, NEVER, SYSTEM, TOY, lamp, lit, press
+from tests.testgen.cover_toys import AFTER_NEVER, NEVER, SYSTEM, TOY, lamp, lit, press
 
 LOOKED = watched(TOY.system)
 BOTH = ["board1", "board2"]

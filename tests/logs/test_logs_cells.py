@@ -7,7 +7,7 @@ import pytest
 from rovercheck.checker.logs import ColumnMap, LogError, LogResult, examine, read_map
 from rovercheck.checker.logs.cells import LARGEST
 from rovercheck.checker.logs.invalid import MOST_VALUES, InvalidCell
-from tests.conform.recorded import copied, long_log, text
+from tests.logs.recorded import copied, long_log, text
 
 SHORT = 40
 AT = 6

@@ -1,0 +1,189 @@
+"""``rovercheck compare --json``: charts against an implementation (``checker/schemas/crosscheck-1.json``)."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+from typing_extensions import TypedDict
+
+from rovercheck.checker.commands.compare.text import CrosscheckReport, shown
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.compare.beside import StepMismatch
+from rovercheck.checker.compare.coverage import taken
+from rovercheck.checker.compare.result import CompareResult, Failure
+from rovercheck.checker.io.document import Count, Ordinal, Text
+from rovercheck.spec_model.abstraction import Value
+
+CompareWord = Literal["mismatch", "failure", "conforms", "inconclusive"]
+
+
+class TransitionsRow(TypedDict):
+    """Transitions that the charts took, of how many."""
+
+    taken: Count
+    all: Count
+    missing: list[str]
+    """Those that they took in no run."""
+
+
+class BoundariesRow(TypedDict):
+    """Sides of boundaries that were met, of how many."""
+
+    met: Count
+    all: Count
+
+
+class StageRow(TypedDict):
+    """How many runs of a kind were tried."""
+
+    kind: str
+    tried: Count
+    of: Count | None
+    """Of how many; null: not counted."""
+    because: str
+    """Why not all, if not all."""
+
+
+class DifferingOutput(TypedDict):
+    """An output that is not as the charts require."""
+
+    output: str
+    expected: Value
+    actual: Value | None
+
+
+class MismatchRow(TypedDict):
+    """The step of a run in which the implementation differs."""
+
+    step: Ordinal
+    origin: str
+    """The run that led to it."""
+    small: bool
+    """Whether the run was made as small as it can be made."""
+    inputs: dict[str, Value]
+    differences: list[DifferingOutput]
+    arrows: list[str]
+    """The transitions that the charts took in the step."""
+    test: str
+    """The test that was written for it, if any."""
+
+
+class FailureRow(TypedDict):
+    """A run that the implementation did not survive."""
+
+    origin: str
+    step: Count
+    """0: at power-up."""
+    inputs: dict[str, Value]
+    message: str
+    test: str
+
+
+class ComparedRow(TypedDict):
+    """The result of one board."""
+
+    system: str
+    implementation: Text
+    charts: str
+    """How the charts differ from those specified, in words."""
+    verdict: CompareWord
+    steps: Count
+    runs: Count
+    examples: Count
+    seed: int
+    arrows: TransitionsRow
+    boundaries: BoundariesRow
+    uncompared: list[str]
+    """Outputs that the implementation never gave."""
+    tried: list[StageRow]
+    compared: Count
+    """The steps in which the implementation was compared: a run ends at its first mismatch."""
+    distinct: Count
+    mismatches: list[MismatchRow]
+    failures: list[FailureRow]
+
+
+class CompareDocument(TypedDict):
+    """What ``rovercheck compare --json`` prints."""
+
+    schema: Literal["rovercheck/crosscheck/1"]
+    complete: bool
+    """False after an interruption: this is what was found so far."""
+    exit: Exit
+    results: list[ComparedRow]
+
+
+def document(reports: Sequence[CrosscheckReport], code: Exit) -> CompareDocument:
+    """The results as JSON."""
+    return {
+        "schema": "rovercheck/crosscheck/1",
+        "complete": not any(r.result.interrupted for r in reports),
+        "exit": code,
+        "results": [_row(r) for r in reports],
+    }
+
+
+def _row(of: CrosscheckReport) -> ComparedRow:
+    result, (took, every) = of.result, of.result.transitions
+    met, sides = result.coverage.boundaries()
+    return {
+        "system": result.board.name,
+        "implementation": of.address,
+        "charts": of.charts or "as specified",
+        "verdict": _word(result),
+        "steps": result.coverage.steps,
+        "runs": result.coverage.runs,
+        "examples": result.examples,
+        "seed": result.seed,
+        "arrows": {"taken": took, "all": every, "missing": [str(a) for a in result.missing]},
+        "boundaries": {"met": met, "all": sides},
+        "uncompared": list(result.uncompared),
+        "tried": [
+            {"kind": s.kind, "tried": s.tried, "of": s.of, "because": s.because} for s in result.stages
+        ],
+        "compared": result.compared,
+        "distinct": len(result.mismatches),
+        "mismatches": [
+            _mismatch(m, _file_of(m, of), number < result.small) for number, m in enumerate(result.mismatches)
+        ],
+        "failures": [_failure(f, _file_of(f, of)) for f in result.failures],
+    }
+
+
+def _file_of(found: StepMismatch | Failure, of: CrosscheckReport) -> str:
+    """The test that was written for it, if any."""
+    return next(
+        (str(file) for one, file in zip(shown(of.result), of.files, strict=False) if one is found), ""
+    )
+
+
+def _word(result: CompareResult) -> CompareWord:
+    if result.mismatches:
+        return "mismatch"
+    return "failure" if result.failures else "conforms" if result.conforms else "inconclusive"
+
+
+def _failure(failure: Failure, file: str) -> FailureRow:
+    return {
+        "origin": failure.origin,
+        "step": failure.tick,
+        "inputs": dict(failure.steps[-1].inputs) if failure.steps else {},
+        "message": failure.message,
+        "test": file,
+    }
+
+
+def _mismatch(mismatch: StepMismatch, file: str, small: bool) -> MismatchRow:
+    return {
+        "step": mismatch.tick,
+        "origin": mismatch.origin,
+        "small": small,
+        "inputs": dict(mismatch.steps[-1].inputs),
+        "differences": [
+            {"output": d.name, "expected": d.expected, "actual": d.actual} for d in mismatch.differences
+        ],
+        "arrows": [str(taken(fired)) for fired in mismatch.transitions],
+        "test": file,
+    }
+
+
+__all__ = ["document"]
