@@ -54,7 +54,7 @@ class State:
                 kept: list[Run] = pickle.loads(whole)
                 return kept
         suite = recorded_suite(board, "ci", self.examples)
-        plain = ((r.origin, [(dict(i), dict(e)) for i, e in r]) for r in suite.runs)
+        plain = ((r.origin, [(dict(i), dict(e)) for i, e in r.steps(suite.board)]) for r in suite.runs)
         made = list(prepared(board, plain))
         with suppress(OSError):  # without a secret they are made every time
             file.write_bytes(sealed(name, pickle.dumps(made), secret(self.folder, make=True)))

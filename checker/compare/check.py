@@ -1,17 +1,16 @@
 """Cross-checking from Python: one board, one implementation, one result."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import chain, count, islice
 from pathlib import Path
 
-from rovercheck.checker.adapters import start
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values
+from rovercheck.checker.board_tests.rows import Row, rows, start_ms
 from rovercheck.checker.compare.beside import (
     ComparedStep,
     StepMismatch,
-    compared,
     differences,
     differs,
     played,
@@ -22,36 +21,48 @@ from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
 from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
-from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
-from rovercheck.checker.compare.variants import named
+from rovercheck.checker.results.board_test import BoardStep, BoardTest
 from rovercheck.checker.testgen import kept
+from rovercheck.checker.testgen.expected_outputs import under_test
+from rovercheck.checker.testgen.scripts import advance, stamps_of
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.stamps import CLOCK
+from rovercheck.spec_model.lang.system import TICK_MS
 
 # --- the runs of a profile with what the charts require, kept to compare many implementations quickly
-
-Changes = Mapping[str, Value | None]
-NOTHING: Changes = {}
 
 
 @dataclass(frozen=True)
 class RecordedSuite:
-    """A run: where it comes from, and the changes of inputs and required outputs in each step.
-
-    An output that changes to None is not required any more.
-    """
+    """A run: where it comes from, the time of its first step, and its rows with the outputs required."""
 
     origin: str
-    steps: tuple[tuple[Changes, Changes], ...]
+    start_ms: int
+    rows: tuple[Row, ...]
 
-    def __iter__(self) -> Iterator[tuple[dict[str, Value], dict[str, Value]]]:
-        """Inputs and required outputs of each step; both are changed in place afterwards."""
-        inputs: dict[str, Value] = {}
-        expected: dict[str, Value] = {}
-        for given, required in self.steps:
-            _apply(inputs, given)
-            _apply(expected, required)
-            yield inputs, expected
+    def __len__(self) -> int:
+        return sum(times for times, _, _ in self.rows)
+
+    def steps(self, board: Board) -> Iterator[tuple[dict[str, Value], dict[str, Value]]]:
+        """Inputs and required outputs of each step; the inputs are changed in place afterwards."""
+        inputs, stamps, now = board.at_power_up(), stamps_of(board), self.start_ms
+        moment: dict[str, Value | None] = {}
+        outputs: dict[str, Value | None] = {}
+        for times, given, wanted in self.rows:
+            moment |= given
+            outputs |= wanted
+            required = {name: value for name, value in outputs.items() if value is not None}
+            for _ in range(times):
+                advance(inputs, stamps, now, moment)
+                yield inputs, required
+                now = (now + TICK_MS) % CLOCK
+
+
+def recorded(board: Board, origin: str, steps: Sequence[ComparedStep]) -> RecordedSuite:
+    """What the charts require in a run."""
+    test = BoardTest(under_test(board), origin, tuple(BoardStep(s.inputs, s.expected) for s in steps))
+    return RecordedSuite(origin, start_ms(test), tuple(rows(test)))
 
 
 @dataclass(frozen=True)
@@ -64,7 +75,7 @@ class Suite:
     @property
     def steps(self) -> int:
         """Steps of all runs."""
-        return sum(len(run.steps) for run in self.runs)
+        return sum(map(len, self.runs))
 
     def first_mismatch(self, implementation: Implementation) -> StepMismatch | None:
         """The first difference in any of the runs.  Raises ``ImplementationError``."""
@@ -82,7 +93,7 @@ def suite(env: Environment, effort: CompareEffort, runs: Iterable[Run]) -> Suite
 
     def keep(origin: str, steps: list[ComparedStep]) -> None:
         transitions = {(f.chart, f.source, f.target, f.label) for step in steps for f in step.fired}
-        made.append((-len(transitions - known), RecordedSuite(origin, tuple(_changes(steps)))))
+        made.append((-len(transitions - known), recorded(env.board, origin, steps)))
         known.update(transitions)
 
     CompareSearch(env, _Nothing(), effort, record=keep).run(runs)
@@ -101,11 +112,11 @@ class _Nothing:
     def close(self) -> None: ...
 
 
-def _first(board: Board, recorded: RecordedSuite, implementation: Implementation) -> StepMismatch | None:
+def _first(board: Board, run: RecordedSuite, implementation: Implementation) -> StepMismatch | None:
     implementation.reset()
     seen: set[str] = set()
     given: list[dict[str, Value]] = []
-    for inputs, expected in recorded:
+    for inputs, expected in run.steps(board):
         given.append(dict(inputs))
         actual = implementation.step(given[-1])
         seen.update(actual)
@@ -113,32 +124,6 @@ def _first(board: Board, recorded: RecordedSuite, implementation: Implementation
             steps = tuple(rerun(board, given))
             return StepMismatch(board, steps, differences(board, expected, actual, seen))
     return None
-
-
-def _changes(steps: list[ComparedStep]) -> Iterator[tuple[Changes, Changes]]:
-    inputs: dict[str, Value] = {}
-    expected: dict[str, Value] = {}
-    for step in steps:
-        yield _changed(inputs, step.inputs), _changed(expected, step.expected)
-
-
-def _changed(before: dict[str, Value], now: Values) -> Changes:
-    """What is to be applied to have the values of now; ``before`` is brought up to them."""
-    found: dict[str, Value | None] = {n: v for n, v in now.items() if n not in before or before[n] != v}
-    found |= {name: None for name in before if name not in now}
-    _apply(before, found)
-    return found or NOTHING
-
-
-def _apply(at: dict[str, Value], changes: Changes) -> None:
-    for name, value in changes.items():
-        if value is None:
-            at.pop(name, None)
-        else:
-            at[name] = value
-
-
-AS_READ: Mapping[str, str] = {}
 
 
 def cross_check(
@@ -177,26 +162,6 @@ def quick_check(
 def recorded_suite(board: str, profile: str = "ci", examples: int | None = None) -> Suite:
     """The runs of a profile on a board, with what the charts require."""
     return suite(ENVIRONMENTS[board], effort(profile, examples), _known(ENVIRONMENTS[board], None))
-
-
-def replay(
-    board: str,
-    address: str,
-    stimulus: Stimulus,
-    interpretations: Mapping[str, str] = AS_READ,
-    repair: str = "",
-) -> StepMismatch | None:
-    """Run the implementation at an address ``KIND:WHAT`` and the charts under one stimulus.
-
-    The charts are those under ``interpretations``, with a repair if one is named.
-    The first step in which they differ, or None.  Raises ``ImplementationError``.
-    """
-    which = named(interpretations, repair)[board]
-    implementation = start(address, which)
-    try:
-        return compared(which, played(which, {}, stimulus), implementation)
-    finally:
-        implementation.close()
 
 
 def _known(env: Environment, folder: Path | None) -> Iterable[Run]:

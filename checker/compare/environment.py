@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from rovercheck.checker.compare.stimulus import Change, Every, InputBlock
 from rovercheck.checker.compare.values import Values
-from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction import Board, Value
 
 Blocks = list[InputBlock]
 Phase = Callable[["Environment"], st.SearchStrategy[Blocks]]
@@ -45,11 +45,14 @@ class Environment:
     @cached_property
     def at_rest(self) -> tuple[tuple[str, Change], ...]:
         """Everything at rest, and every source updated in every step."""
+        stamps = self.values.stamps
+        return tuple((name, Every() if name in stamps else value) for name, value in self.calm.items())
+
+    @cached_property
+    def calm(self) -> Mapping[str, Value]:
+        """The same as the inputs of a step; of a stamp, how many ms before the step it was renewed: 0."""
         initial = {name: s.initial for name, s in self.values.signals.items()}
-        return (
-            *({**initial, **self.board.interface.resting}).items(),
-            *((stamp, Every()) for stamp in self.values.stamps),
-        )
+        return {**initial, **self.board.interface.resting, **dict.fromkeys(self.values.stamps, 0)}
 
     @cached_property
     def timers(self) -> tuple[int, ...]:

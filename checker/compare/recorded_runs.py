@@ -1,4 +1,4 @@
-"""Runs kept as plain data: held blocks in JSON, concrete inputs step by step in CSV or JSON."""
+"""Runs kept as plain data: rows of equal steps in JSON, concrete inputs step by step in CSV or JSON."""
 
 import csv
 import json
@@ -6,17 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import cast
+from typing import Any
 
 from rovercheck.checker.adapters.implementation import Value
-from rovercheck.checker.compare.beside import ComparedStep, played, rerun
+from rovercheck.checker.compare.beside import ComparedStep, rerun
 from rovercheck.checker.compare.search import Run
-from rovercheck.checker.compare.smaller import columns
-from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 from rovercheck.checker.io.files import csv_plain
-from rovercheck.spec_model.abstraction import Board
+from rovercheck.checker.testgen.scripts import Script, blocks, script, steps, unfolded
+from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import TICK_MS
 
 COUNTEREXAMPLES = "counterexamples.json"
 """The runs with which the model checker broke properties or showed that something can be reached.
@@ -25,65 +23,40 @@ They are inputs only: what the charts do under them is computed anew.
 """
 
 
-_Blocks = Sequence[tuple[int, Mapping[str, Value | None]]]
-
-
 @dataclass(frozen=True)
 class KeptSuite:
-    """A stimulus, and where it comes from."""
+    """The inputs of a run, and where it comes from."""
 
     origin: str
-    stimulus: Stimulus
+    script: Script
 
 
 def counterexamples(board: Board) -> Iterator[Run]:
     """The model checker's runs on a board, as the charts go through them now."""
     text = files(__package__).joinpath(COUNTEREXAMPLES).read_text(encoding="utf-8")
     for kept in decoded(json.loads(text), board):
-        yield kept.origin, played(board, {}, kept.stimulus)
+        yield kept.origin, rerun(board, steps(board, kept.script))
 
 
 def kept(origin: str, board: Board, run: Iterable[Mapping[str, int]]) -> KeptSuite:
-    """A run of the model as concrete inputs of a board."""
-    return KeptSuite(origin, columns(board, list(board.run(iter(run)))).stimulus())
+    """A run of the model as inputs of a board."""
+    return KeptSuite(origin, script(board, list(board.run(iter(run)))))
 
 
 def encoded(runs: Mapping[str, Sequence[KeptSuite]]) -> str:
     """The runs of each board as JSON, one run a line."""
     parts = []
     for name, of_board in runs.items():
-        lines = ",\n".join("  " + json.dumps(_plain(one), separators=(",", ":")) for one in of_board)
+        plain = ({"origin": one.origin, "blocks": blocks(boards()[name], one.script)} for one in of_board)
+        lines = ",\n".join("  " + json.dumps(one, separators=(",", ":")) for one in plain)
         parts.append(f"{json.dumps(name)}: [\n{lines}\n]")
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def _plain(one: KeptSuite) -> dict[str, object]:
-    blocks = [[b.steps, {name: _encoded(c) for name, c in b.changes}] for b in one.stimulus.blocks]
-    return {"origin": one.origin, "blocks": blocks}
-
-
-def _encoded(change: Change) -> object:
-    """A stamp that is renewed in every step as its lag, a silent one as null."""
-    if isinstance(change, Every):
-        return change.lags_ms[0] if change.gaps else None
-    return change
-
-
-def decoded(text: Mapping[str, Sequence[Mapping[str, object]]], board: Board) -> Iterator[KeptSuite]:
+def decoded(text: Mapping[str, Sequence[Mapping[str, Any]]], board: Board) -> Iterator[KeptSuite]:
     """The runs of one board."""
-    stamps = {s.name for s in board.inputs if s.stamp}
     for one in text.get(board.name, ()):
-        blocks = []
-        for steps, changes in cast(_Blocks, one["blocks"]):
-            changed = tuple((name, _change(name in stamps, value)) for name, value in changes.items())
-            blocks.append(InputBlock(steps, changed))
-        yield KeptSuite(str(one["origin"]), Stimulus(tuple(blocks), TICK_MS))
-
-
-def _change(stamp: bool, value: Value | None) -> Change:
-    if value is None:
-        return SILENT
-    return Every((1,), (int(value),)) if stamp else value
+        yield KeptSuite(one["origin"], unfolded(board, one["blocks"]))
 
 
 # --- folders of tests -------------------------------------------------------------------------------
@@ -124,7 +97,7 @@ def _steps(file: Path, board: Board, rows: Sequence[Mapping[str, object]]) -> li
             inputs.append({s.name: _number(row[s.name]) for s in board.inputs})
         except (KeyError, TypeError, ValueError) as error:
             raise ModelError(f"{file}, step {number}: {error!r}. Write a number for each input.") from error
-    columns(board, inputs)
+    script(board, inputs)  # refuses steps that are not 20 ms apart
     return rerun(board, inputs)
 
 

@@ -11,21 +11,19 @@ from rovercheck.checker.adapters.implementation import Implementation, Implement
 from rovercheck.checker.compare.beside import StepMismatch, compared, rerun
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.result import ALLOWED
-from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus, clocked
+from rovercheck.checker.testgen.scripts import script, steps
 from rovercheck.spec_model.abstraction import Board
-from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, since
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import TICK_MS
 
 Column = tuple[Value | None, ...]
 
 
 @dataclass(frozen=True)
 class InputColumns:
-    """A run of concrete inputs, column by column; ``stamps`` are those that hold lags."""
+    """A run of concrete inputs, column by column."""
 
     start_ms: int
-    stamps: frozenset[str]
     columns: Mapping[str, Column]
 
     def __len__(self) -> int:
@@ -33,76 +31,24 @@ class InputColumns:
 
     def inputs(self, board: Board) -> list[dict[str, Value]]:
         """The inputs of each step."""
-        at, found = board.at_power_up(), []
-        for k in range(len(self)):
-            at[NOW] = now = (self.start_ms + TICK_MS * k) % CLOCK
-            for name, column in self.columns.items():
-                value = column[k]
-                if name not in self.stamps:
-                    assert value is not None
-                    at[name] = value
-                elif value is not None:
-                    at[name] = (now - int(value)) % CLOCK
-            found.append(dict(at))
-        return found
-
-    def stimulus(self) -> Stimulus:
-        """The same run in held blocks."""
-        blocks: list[InputBlock] = []
-        before: dict[str, Change] = {}
-        for k in range(len(self)):
-            now = {name: self._change(name, column[k]) for name, column in self.columns.items()}
-            changed = tuple((name, value) for name, value in now.items() if k == 0 or before[name] != value)
-            if k and not changed:
-                blocks[-1] = InputBlock(blocks[-1].steps + 1, blocks[-1].changes)
-            else:
-                blocks.append(InputBlock(1, changed))
-            before = now
-        return Stimulus(tuple(blocks), self.start_ms)
-
-    def _change(self, name: str, value: Value | None) -> Change:
-        if name not in self.stamps:
-            assert value is not None
-            return value
-        return SILENT if value is None else Every((1,), (int(value),))
+        moments = [
+            dict(zip(self.columns, row, strict=True)) for row in zip(*self.columns.values(), strict=True)
+        ]
+        return list(steps(board, moments, self.start_ms))
 
     def with_column(self, name: str, column: Column) -> "InputColumns":
-        return InputColumns(self.start_ms, self.stamps, {**self.columns, name: column})
+        return InputColumns(self.start_ms, {**self.columns, name: column})
 
     def without(self, first: int, count: int) -> "InputColumns":
         """Some steps left out."""
         kept = {name: c[:first] + c[first + count :] for name, c in self.columns.items()}
-        return InputColumns(self.start_ms, self.stamps, kept)
+        return InputColumns(self.start_ms, kept)
 
 
 def columns(board: Board, inputs: Sequence[Values]) -> InputColumns:
-    """Concrete inputs taken apart.
-
-    Raises ``ModelError`` for steps that are not 20 ms apart: the charts count steps.
-    """
-    start = int(inputs[0][NOW])
-    for k, at in enumerate(inputs):
-        if since(int(at[NOW]), start) != TICK_MS * k:
-            raise ModelError(
-                f"Step {k + 1} is at {at[NOW]} ms, {since(int(at[NOW]), start)} ms after the first; "
-                f"steps are {TICK_MS} ms apart, because the charts count them."
-            )
-    stamps = frozenset(s.name for s in board.inputs if clocked(s))
-    found: dict[str, Column] = {
-        s.name: tuple(at[s.name] for at in inputs) for s in board.inputs if not s.stamp
-    }
-    for name in stamps:
-        found[name] = _lags(inputs, name)
-    return InputColumns(start, stamps, {s.name: found[s.name] for s in board.inputs if s.name != NOW})
-
-
-def _lags(inputs: Sequence[Values], name: str) -> Column:
-    before, found = 0, []
-    for at in inputs:
-        stamp = int(at[name])
-        found.append(since(int(at[NOW]), stamp) if stamp != before else None)
-        before = stamp
-    return tuple(found)
+    """Concrete inputs taken apart.  Raises ``ModelError`` for steps that are not 20 ms apart."""
+    moments = script(board, inputs)
+    return InputColumns(int(inputs[0][NOW]), {name: tuple(m[name] for m in moments) for name in moments[0]})
 
 
 class Budget:
@@ -145,15 +91,6 @@ class _Work:
         self.env, self.best, self.budget = env, mismatch, budget
         self._implementation = implementation
         self.run = columns(env.board, [step.inputs for step in mismatch.steps])
-        self._calm = dict(env.at_rest)
-
-    def at_rest(self, name: str) -> Value:
-        """The calm value of an input; a calm stamp is renewed in every step."""
-        calm = self._calm[name]
-        if isinstance(calm, Every):
-            return 0
-        assert isinstance(calm, bool | int | float)
-        return calm
 
     def accepts(self, run: InputColumns) -> bool:
         """Take the run over if it has the same mismatch."""
@@ -187,7 +124,7 @@ def _calm_together(work: _Work) -> None:
         for first in range(0, len(names), size):
             run = work.run
             for name in names[first : first + size]:
-                run = run.with_column(name, (work.at_rest(name),) * len(run))
+                run = run.with_column(name, (work.env.calm[name],) * len(run))
             work.accepts(run)
         size //= 2
 
@@ -207,7 +144,7 @@ def _fewer_steps(work: _Work, least: int = 1) -> None:
 def _calmer(work: _Work, name: str) -> None:
     """Hold one value throughout: the calm one, else one of its own."""
     column = work.run.columns[name]
-    for value in dict.fromkeys((work.at_rest(name), column[0], column[-1])):
+    for value in dict.fromkeys((work.env.calm[name], column[0], column[-1])):
         if work.accepts(work.run.with_column(name, (value,) * len(column))):
             return
 

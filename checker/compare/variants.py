@@ -6,7 +6,7 @@ from dataclasses import replace
 from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.ambiguity import ANY, fixed
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.repairs import Repair, proposals, repaired
+from rovercheck.spec_model.repairs import Repair, repaired
 
 
 def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[str, Board]:
@@ -25,8 +25,3 @@ def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[
         return found
     fixing = fixed(choices)
     return {n: replace(b, system=fixing.system(repaired(b.system, repair))) for n, b in found.items()}
-
-
-def named(choices: Mapping[str, str], repair: str = "") -> Mapping[str, Board]:
-    """The same, of a repair by its name.  Raises ``KeyError`` for an unknown one."""
-    return varied(choices, proposals()[repair] if repair else None)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rovercheck.checker.results.board_steps import BoardRun
+    from rovercheck.checker.results.board_test import BoardTest
     from rovercheck.spec_model.lang.chart import Chart, Component
     from rovercheck.spec_model.lang.expr import Expr, Var
     from rovercheck.spec_model.lang.place import Place
@@ -156,7 +156,7 @@ class Trace:
     trapped: int | None = None
     shortest: bool = False
     necessary: NecessaryInputs | None = None
-    concrete: tuple["BoardRun", ...] = field(default=(), compare=False, repr=False)
+    concrete: tuple["BoardTest", ...] = field(default=(), compare=False, repr=False)
     again: str = field(default="", compare=False, repr=False)
 
     def needed(self) -> tuple[Needed, ...]:

@@ -5,9 +5,10 @@ from copy import deepcopy
 from dataclasses import dataclass
 from random import Random
 
+from rovercheck.checker.board_tests.rows import Moment
 from rovercheck.checker.system.instrument.goals import Watched
 from rovercheck.checker.testgen.compiled_charts import Step, compiled
-from rovercheck.checker.testgen.scripts import Moment, Script
+from rovercheck.checker.testgen.scripts import Script, advance, stamps_of
 from rovercheck.spec_model.abstraction import Board, BoardSignal, InterfaceReader, Value
 from rovercheck.spec_model.abstraction.signals import units
 from rovercheck.spec_model.abstraction.stamps import NOW
@@ -45,7 +46,7 @@ class RandomInputs:
     def __init__(self, board: Board) -> None:
         self._signals = [s for s in board.inputs if s.name != NOW]
         well = {s.name: s.initial for s in self._signals} | dict(board.interface.in_charge)
-        self._well: Moment = {s.name: True if s.stamp else well[s.name] for s in self._signals}
+        self._well: Moment = {s.name: 0 if s.stamp else well[s.name] for s in self._signals}
         self._holds = lengths(board)
         self._read = [names for c in board.system.charts if (names := _signals_read(c, self._signals))]
 
@@ -72,11 +73,13 @@ class RandomInputs:
         share = random.choice((0.05, 0.1, 0.25, 0.6))
         return {s.name for s in self._signals if random.random() < share}
 
-    def _next(self, random: Random, signal: BoardSignal, now: Value, lively: bool, data: Data) -> Value:
+    def _next(
+        self, random: Random, signal: BoardSignal, now: Value | None, lively: bool, data: Data
+    ) -> Value | None:
         if not lively:
             return self._well[signal.name] if random.random() < 0.3 else now
         if signal.stamp:
-            return random.random() < 0.5
+            return 0 if random.random() < 0.5 else None
         if random.random() < 0.3:
             return now
         if _heading(signal) and random.random() < 0.7:
@@ -113,7 +116,7 @@ class RandomMachine:
 
     def __init__(self, board: Board, watched: Watched) -> None:
         lowered = lower(watched.system)
-        self.board = board
+        self.board, self.stamps = board, stamps_of(board)
         self.step: Step = compiled(lowered)
         self.start = {**lowered.init, **{v.name: v.init for v in lowered.frozen}}
         self.flags = tuple((g.id, g.flag.name) for g in watched.goals)
@@ -121,23 +124,23 @@ class RandomMachine:
 
 @dataclass
 class TriedRun:
-    """A run so far: the state, the clock and stamps, what the reader remembers, the inputs given."""
+    """A run so far: the state, the concrete inputs, what the reader remembers, the inputs given."""
 
     machine: RandomMachine
     at: dict[str, int]
-    stamps: dict[str, Value]
+    inputs: dict[str, Value]
     reader: InterfaceReader
     given: list[Moment]
 
     @staticmethod
     def power_up(machine: RandomMachine) -> "TriedRun":
         """Before the first step."""
-        stamps = {s.name: s.initial for s in machine.board.inputs if s.stamp}
-        return TriedRun(machine, dict(machine.start), stamps, machine.board.reader(), [])
+        board = machine.board
+        return TriedRun(machine, dict(machine.start), board.at_power_up(), board.reader(), [])
 
     def copy(self) -> "TriedRun":
         return TriedRun(
-            self.machine, dict(self.at), dict(self.stamps), deepcopy(self.reader), list(self.given)
+            self.machine, dict(self.at), dict(self.inputs), deepcopy(self.reader), list(self.given)
         )
 
     def now(self) -> Mapping[str, int]:
@@ -147,10 +150,8 @@ class TriedRun:
     def step(self, moment: Moment) -> list[str]:
         """One step; the goals reached in it."""
         self.given.append(moment)
-        now = len(self.given) * TICK_MS
-        self.stamps |= {name: now for name in self.stamps if moment.get(name)}
-        self.stamps[NOW] = now
-        self.at |= self.reader.step({**moment, **self.stamps})
+        advance(self.inputs, self.machine.stamps, len(self.given) * TICK_MS, moment)
+        self.at |= self.reader.step(self.inputs)
         self.machine.step(self.at)
         return [id for id, flag in self.machine.flags if self.at[flag]]
 

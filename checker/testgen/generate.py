@@ -1,13 +1,15 @@
 """What a user asks for, as boards and goals: whole boards, or single charts of them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from rovercheck.checker.results.board_test import BoardTest
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
-from rovercheck.checker.testgen.formats import FORMATS, ExpectedTest
-from rovercheck.checker.testgen.formats.expected_outputs import expected
+from rovercheck.checker.testgen.expected_outputs import expected
+from rovercheck.checker.testgen.formats import FORMATS
 from rovercheck.checker.testgen.keep import KeptTests
+from rovercheck.checker.testgen.scripts import steps
 from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
@@ -53,10 +55,11 @@ def only(kept: KeptTests, goals: Iterable[CoverGoal]) -> KeptTests:
 
 
 def files(aim: Aim, kept: KeptTests, format: str) -> dict[str, str]:
-    """The tests as files of a format, by name, with the outputs that the interpreter requires."""
-    return dict(FORMATS[format](aim.board, _tests(aim, kept)))
+    """The tests, one at least, as files of a format, by name; the interpreter says what they require."""
+    return dict(FORMATS[format](aim.board.name, list(_tests(aim, kept))))
 
 
-def _tests(aim: Aim, kept: KeptTests) -> list[ExpectedTest]:
+def _tests(aim: Aim, kept: KeptTests) -> Iterator[BoardTest]:
     texts = {g.id: f"{g.id}: {g.text}" for g in aim.goals}
-    return [expected(aim.board, name, [texts[g] for g in goals], s) for name, goals, s in kept.tests]
+    for name, goals, script in kept.tests:
+        yield expected(aim.board, name, steps(aim.board, script), [texts[g] for g in goals])

@@ -1,14 +1,17 @@
 """Tests in files: held blocks of inputs, as JSON that people can read and compare."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rovercheck.checker.testgen.scripts import Script, Test, blocks, steps, unfolded
-from rovercheck.spec_model.abstraction import Board
+from rovercheck.checker.board_tests.rows import Moment
+from rovercheck.checker.testgen.scripts import Script, Test, blocks, stamps_of, steps, unfolded
+from rovercheck.spec_model.abstraction import Board, Value
 from rovercheck.spec_model.lang.errors import ModelError
 
-FORMAT = 1
+FORMAT = 2
+FLAGS = 1
+"""The format before, in which a stamp is true where its datum is new, and lags are not known."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +47,11 @@ def kept_of(board: Board, text: str) -> KeptTests:
     """What a file holds that ``written`` wrote.  Raises ``ModelError`` for any other."""
     try:
         document = json.loads(text)
-        if (document["format"], document["board"]) != (FORMAT, board.name):
+        format = document["format"]
+        if format not in (FORMAT, FLAGS) or document["board"] != board.name:
             raise ModelError(f"These are no tests of {board.name} in format {FORMAT}; generate them again.")
-        tests = [(t["name"], tuple(t["goals"]), unfolded(board, t["held"])) for t in document["tests"]]
+        stamps = stamps_of(board) if format == FLAGS else frozenset()
+        tests = [(t["name"], tuple(t["goals"]), _script(board, t["held"], stamps)) for t in document["tests"]]
         shortest = tuple(document["shortest"])
         proved, unknown = document["uncoverable"], document["unknown"]
         return KeptTests(tuple(tests), shortest, proved, unknown, document.get("charts", ""))
@@ -54,6 +59,13 @@ def kept_of(board: Board, text: str) -> KeptTests:
         raise ModelError(
             f"These are no tests that rovercheck keeps: {error}. Generate them again."
         ) from error
+
+
+def _script(board: Board, rows: Sequence[tuple[int, Moment]], flags: Collection[str]) -> Script:
+    def lag(name: str, value: Value | None) -> Value | None:
+        return (0 if value else None) if name in flags else value
+
+    return unfolded(board, [(n, {s: lag(s, v) for s, v in dict(changes).items()}) for n, changes in rows])
 
 
 def read(board: Board, text: str) -> list[Test]:

@@ -1,16 +1,14 @@
-"""Tests as people write them: the inputs of a board step by step, and what changes between steps."""
+"""The inputs of a board without its clock: as tests are kept, shortened and told."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from rovercheck.checker.results.board_steps import Cells, in_rows
+from rovercheck.checker.board_tests.rows import Moment, at_rest, in_rows, moments
+from rovercheck.checker.testgen.expected_outputs import under_test
 from rovercheck.spec_model.abstraction import Board, Value
-from rovercheck.spec_model.abstraction.stamps import NOW
+from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, since
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import TICK_MS
-
-Moment = Mapping[str, Value]
-"""The inputs of one step without the clock; of a stamp, whether its datum is new in this step."""
 
 Script = tuple[Moment, ...]
 """The inputs of a test, step by step from power-up."""
@@ -25,63 +23,54 @@ class Test:
     steps: tuple[Mapping[str, Value], ...]
 
 
-def steps(board: Board, script: Sequence[Moment]) -> tuple[dict[str, Value], ...]:
+def steps(board: Board, script: Sequence[Moment], start_ms: int = TICK_MS) -> tuple[dict[str, Value], ...]:
     """The concrete inputs of a script: a step every 20 ms, stamps from the clock."""
-    found: list[dict[str, Value]] = []
-    stamps = {s.name: s.initial for s in board.inputs if s.stamp}
-    for number, moment in enumerate(script, start=1):
-        now = number * TICK_MS
-        stamps |= {name: now for name in stamps if moment.get(name)}
-        stamps[NOW] = now
-        found.append({s.name: stamps[s.name] if s.stamp else moment[s.name] for s in board.inputs})
+    at, stamps, found = board.at_power_up(), stamps_of(board), []
+    for number, moment in enumerate(script):
+        advance(at, stamps, (start_ms + number * TICK_MS) % CLOCK, moment)
+        found.append(dict(at))
     return tuple(found)
+
+
+def advance(inputs: dict[str, Value], stamps: Collection[str], now: int, moment: Moment) -> None:
+    """Bring concrete inputs from those of a step to those of the next, in place."""
+    inputs[NOW] = now
+    for name, value in moment.items():
+        if value is not None:
+            inputs[name] = (now - int(value)) % CLOCK if name in stamps else value
+
+
+def stamps_of(board: Board) -> frozenset[str]:
+    """The names of the stamps of a board, its clock among them."""
+    return frozenset(s.name for s in board.inputs if s.stamp)
 
 
 def script(board: Board, given: Sequence[Mapping[str, Value]]) -> Script:
     """The script of concrete inputs.
 
-    Raises ``ModelError`` for a clock that does not start at 20 ms and advance by 20 ms, and for a stamp that
-    is neither that of its step nor the one before.
+    Raises ``ModelError`` for steps that are not 20 ms apart: the charts count steps.
     """
-    return tuple(_script(board, given))
+    for number, at in enumerate(given):
+        after = since(int(at[NOW]), int(given[0][NOW]))
+        if after != TICK_MS * number:
+            raise ModelError(
+                f"Step {number + 1} is at {at[NOW]} ms, {after} ms after the first; "
+                f"steps are {TICK_MS} ms apart, because the charts count them."
+            )
+    return tuple(moments(under_test(board).inputs, given))
 
 
-def _script(board: Board, given: Sequence[Mapping[str, Value]]) -> Iterator[Moment]:
-    before: Mapping[str, Value] = board.at_power_up()
-    for number, inputs in enumerate(given, start=1):
-        now = inputs[NOW]
-        if now != number * TICK_MS:
-            raise ModelError(f"step {number} is at {now} ms; in a test step k is at {TICK_MS} k ms.")
-        moment = dict(inputs)
-        for signal in board.inputs:
-            if signal.stamp:
-                moment[signal.name] = inputs[signal.name] == now
-                if not moment[signal.name] and inputs[signal.name] != before[signal.name]:
-                    raise ModelError(f"step {number}: {signal.name} is neither {now} ms nor as before.")
-        del moment[NOW]
-        yield moment
-        before = inputs
-
-
-# --- held blocks: how tests are kept -------------------------------------------------------------------
-
-
-def blocks(board: Board, moments: Sequence[Moment]) -> list[tuple[int, Moment]]:
+def blocks(board: Board, script: Sequence[Moment]) -> list[tuple[int, Moment]]:
     """The script as steps in a row with equal inputs, and what changes from one such row to the next."""
-    nothing: Cells = {}
-    rows = in_rows(_at_rest(board), nothing, ((moment, nothing) for moment in moments))
+    rows = in_rows(at_rest(under_test(board).inputs), {}, ((moment, {}) for moment in script))
     return [(count, changes) for count, changes, _ in rows]
 
 
-def unfolded(board: Board, rows: Sequence[tuple[int, Mapping[str, Value]]]) -> Script:
+def unfolded(board: Board, rows: Sequence[tuple[int, Moment]]) -> Script:
     """The script that the rows of ``blocks`` stand for."""
     found: list[Moment] = []
-    at: dict[str, Value] = dict(_at_rest(board))
+    at = at_rest(under_test(board).inputs)
     for count, changes in rows:
         at = {**at, **changes}
         found += [at] * count
     return tuple(found)
-
-
-def _at_rest(board: Board) -> Moment:
-    return {s.name: False if s.stamp else s.initial for s in board.inputs if s.name != NOW}

@@ -1,6 +1,8 @@
 """The cross-check: our supervisors conform, planted faults are found and become tests."""
 
-import importlib.util
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
@@ -10,16 +12,17 @@ import pytest
 
 from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values
-from rovercheck.checker.compare import StepMismatch, cross_check, effort, quick_check, replay
-from rovercheck.checker.compare.beside import rerun
+from rovercheck.checker.compare import StepMismatch, cross_check, effort, quick_check
+from rovercheck.checker.compare.beside import compared, rerun
 from rovercheck.checker.compare.check import RunCache, recorded_suite
 from rovercheck.checker.compare.coverage import transitions
 from rovercheck.checker.compare.recorded_runs import counterexamples
-from rovercheck.checker.compare.reproduce import file_name, pytest_file, stimulus_of
+from rovercheck.checker.compare.reproduce import file_name, reproduction, script_of
 from rovercheck.checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance
 from rovercheck.checker.compare.search import CompareSearch, Run
 from rovercheck.checker.compare.smaller import Budget, smaller
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.testgen.scripts import blocks, steps
 from rovercheck.spec_model.abstraction import boards
 from tests.compare import cross_faults
 from tests.compare.cross_faults import FAULTS
@@ -72,29 +75,31 @@ def test_a_mismatch_is_small_and_becomes_a_test_that_fails_until_the_fault_is_go
     address = f"python:{HERE}:LateReception"
     mismatch = made_small("board1", "LateReception")
     assert mismatch.differences[0].name == "rx_status"
-    assert mismatch.tick <= 8 and len(stimulus_of(mismatch).blocks) <= 3
-    text = pytest_file(mismatch, address)
-    with pytest.raises(AssertionError, match="step"):
-        run_test(tmp_path / file_name(mismatch), text)
-    run_test(tmp_path / "right.py", text.replace(address, f"python:{OURS['board1']}"))
+    assert mismatch.tick <= 8 and len(blocks(mismatch.board, script_of(mismatch))) <= 3
+    file = tmp_path / file_name(mismatch)
+    file.write_text(reproduction(mismatch, address), encoding="utf-8")
+    said = said_by_pytest(file, {})
+    assert "1 failed" in said and f"step {mismatch.tick} (" in said and "'rx_status': (" in said
+    assert "1 passed" in said_by_pytest(file, {"ROVERCHECK_IMPL": f"python:{OURS['board1']}"})
 
 
-def run_test(place: Path, text: str) -> None:
-    """Run the only test of a file."""
-    place.write_text(text, encoding="utf-8")
-    spec = importlib.util.spec_from_file_location(place.stem, place)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    [test] = [getattr(module, name) for name in dir(module) if name.startswith("test_")]
-    test()
+def said_by_pytest(file: Path, more: dict[str, str]) -> str:
+    """What pytest says of a file, away from this project's own configuration."""
+    command = [sys.executable, "-m", "pytest", "-q", "-c", os.devnull, "-p", "no:cacheprovider", str(file)]
+    environment = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", **more}
+    found = subprocess.run(
+        command, capture_output=True, text=True, check=False, cwd=file.parent, env=environment, timeout=300
+    )
+    return found.stdout
 
 
 def test_a_deep_mismatch_is_small_and_names_the_transition() -> None:
     mismatch = made_small("board1", "LateRelay")
     assert mismatch.tick < 400
     assert mismatch.transitions[0].chart == "Relay" and mismatch.transitions[0].target == ("B1_actuating",)
-    assert replay("board1", f"python:{HERE}:LateRelay", stimulus_of(mismatch)) is not None
+    again = steps(mismatch.board, script_of(mismatch), int(mismatch.steps[0].inputs["now_ms"]))
+    faulty = running("board1", f"{HERE}:LateRelay")
+    assert compared(mismatch.board, rerun(mismatch.board, again), faulty) == replace(mismatch, origin="")
 
 
 def test_a_mismatch_of_random_runs_alone_is_shrunk() -> None:

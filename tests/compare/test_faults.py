@@ -10,9 +10,8 @@ from benchmarks.faults.judged import KINDS, judgements
 from benchmarks.faults.mutate import path
 from benchmarks.faults.package import importers, replaced
 from benchmarks.faults.recorded import Found, Run, prepared, search
-from rovercheck.checker.compare import SILENT, Every, InputBlock, Stimulus
 from rovercheck.checker.compare.beside import ComparedStep, compared, played
-from rovercheck.checker.compare.stimulus import Change
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.spec_model.abstraction import boards
 from tests.faults import FaultSuite

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import cache
 
-from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal
+from rovercheck.checker.results.board_test import BoardStep, BoardTest, BoardUnderTest, SignalKind, StepSignal
 from rovercheck.checker.results.trace import Needed, TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.domain import enumeration, integer
 from rovercheck.spec_model.lang.expr import flag, var
@@ -68,9 +68,8 @@ def needed() -> Trace:
 TRACES = {**zoo.TRACES, "lasso": lasso(), "witness": witness(), "odd": odd(), "needed": needed()}
 
 
-LAMP = BoardRun(
-    board="toy",
-    tick_ms=20,
+TOY = BoardUnderTest(
+    name="toy",
     inputs=(
         StepSignal("now_ms", SignalKind.CLOCK, 0, "start of the step"),
         StepSignal("seen_ms", SignalKind.STAMP, 0, "when the level was measured"),
@@ -81,20 +80,36 @@ LAMP = BoardRun(
         StepSignal("lit", SignalKind.BOOL, False),
         StepSignal("age", SignalKind.WHOLE, 0, "ms since the level was measured"),
     ),
-    steps=(
-        BoardStep({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
-        BoardStep({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
-        BoardStep({"seen_ms": None, "level": 0.5, "on": True}, {"lit": True, "age": 25}),
-        BoardStep({"seen_ms": None, "level": 0.25, "on": True}, {"age": 45}),
-        BoardStep({"seen_ms": 0, "level": 0.25, "on": False}, {"lit": False, "age": 0}),
-    ),
     implementation="python:nowhere:Lamp",
+)
+
+LAMP = BoardTest(
+    TOY,
+    "TOY-1",
+    (
+        BoardStep({"now_ms": 20, "seen_ms": 15, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
+        BoardStep({"now_ms": 40, "seen_ms": 35, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
+        BoardStep({"now_ms": 60, "seen_ms": 35, "level": 0.5, "on": True}, {"lit": True, "age": 25}),
+        BoardStep({"now_ms": 80, "seen_ms": 35, "level": 0.25, "on": True}, {"age": 45}),
+        BoardStep({"now_ms": 100, "seen_ms": 100, "level": 0.25, "on": False}, {"lit": False, "age": 0}),
+    ),
 )
 """A lamp that is lit while it is on and the level high, and forgets the level in the fourth step."""
 
+LATE = replace(
+    LAMP,
+    name="TOY-2",
+    steps=tuple(
+        replace(s, inputs={n: (v - 60) % 2**32 if n.endswith("_ms") else v for n, v in s.inputs.items()})
+        for s in LAMP.steps
+    ),
+)
+"""The same while the clock begins again: its third step is at 0 ms."""
+
 CONCRETE = {
     "one": replace(told(long_trace(1)), concrete=(LAMP,)),
-    "two": replace(told(long_trace(1)), concrete=(LAMP, replace(LAMP, board="other"))),
-    "odd": replace(odd(), concrete=(LAMP,)),
+    "two": replace(told(long_trace(1)), concrete=(LAMP, replace(LAMP, board=replace(TOY, name="other")))),
+    "late": replace(told(long_trace(1)), concrete=(LAMP, LATE)),
+    "odd": replace(odd(), concrete=(replace(LAMP, name=odd().property.id, goals=(odd().property.text,)),)),
     "unknown": told(long_trace(1)),
 }

@@ -5,18 +5,14 @@ import os
 import subprocess
 import sys
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from rovercheck.checker.commands.trace.board_steps import signals
+from rovercheck.checker.board_tests.c_program import interface
+from rovercheck.checker.board_tests.rows import rows
 from rovercheck.checker.render import trace_c, trace_pytest
-from rovercheck.checker.render.trace_c import render as as_c
-from rovercheck.checker.results.board_steps import BoardRun, held
 from rovercheck.checker.results.format import Need
-from rovercheck.checker.testgen.formats import FORMATS
-from rovercheck.spec_model.abstraction import boards
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import CONCRETE, LAMP
 
@@ -58,14 +54,21 @@ class Lamp:
         pass
 
     def step(self, given):
-        return {"lit": given["on"] and given["level"] > self.least, "age": given["now_ms"] - given["seen_ms"]}
+        lit, age = given["on"] and given["level"] > self.least, (given["now_ms"] - given["seen_ms"]) % 2**32
+        return {"lit": lit, "age": age} if age < self.stops else self.then
+
+    stops, then = 2**32, {}
 
     def close(self):
         pass
 
 
 def start(address, board):
-    return Lamp(float(address.rpartition(":")[2].replace("Lamp", "0.3")))
+    what = address.rpartition(":")[2]
+    lamp = Lamp(0.3 if what in ("Lamp", "silent", "odd") else float(what))
+    if what in ("silent", "odd"):
+        lamp.stops, lamp.then = 25, {} if what == "silent" else {"lit": True, "age": float("nan")}
+    return lamp
 
 
 def boards():
@@ -98,6 +101,20 @@ class TestPytest(Exits):
         said = self.run(tmp_path, {"ROVERCHECK_IMPL": "lamp:0.6"})
         assert "2 failed" in said
         assert "step 1 (20 ms), output: (required, actual) {'lit': (True, False)}" in said
+
+    def test_a_clock_that_begins_again(self, tmp_path: Path) -> None:
+        (tmp_path / "test_it.py").write_text(replaced(self.shown("late")), encoding="utf-8")
+        assert "2 passed" in self.run(tmp_path, {})
+        said = self.run(tmp_path, {"ROVERCHECK_IMPL": "lamp:0.6"})
+        assert "step 1 (20 ms)" in said and "step 1 (4294967256 ms)" in said
+
+    @pytest.mark.parametrize("fault", ["silent", "odd"])
+    def test_an_output_that_is_given_no_longer_and_one_that_is_no_number_are_faults(
+        self, fault: str, tmp_path: Path
+    ) -> None:
+        (tmp_path / "test_it.py").write_text(replaced(self.shown("one")), encoding="utf-8")
+        said = self.run(tmp_path, {"ROVERCHECK_IMPL": f"lamp:{fault}"})
+        assert "1 failed" in said and "step 3 (60 ms)" in said
 
     def run(self, folder: Path, environment: Mapping[str, str]) -> str:
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull]
@@ -134,26 +151,29 @@ class TestC(Exits):
             subprocess.run(built, cwd=tmp_path, check=True)
             found = subprocess.run([str(tmp_path / "run")], capture_output=True, text=True, check=False)
             assert found.returncode == code
-            expected = "differs at 20 ms" if code else "all 5 steps as required"
+            expected = "lit: required 1, actual 0\n  in TOY-1 at 20 ms" if code else "1 of 1 tests passed"
             assert expected in found.stdout
+
+    def test_a_clock_that_begins_again(self, tmp_path: Path) -> None:
+        (tmp_path / "run.c").write_text(self.shown("late"), encoding="utf-8")
+        (tmp_path / "lamp.c").write_text(LAMP_C, encoding="utf-8")
+        for least, said in (("0.3", "2 of 2 tests passed"), ("0.6", "in TOY-2 at 4294967256 ms")):
+            built = ["cc", f"-DLEAST={least}", "-std=c99", "run.c", "lamp.c", "-o", "run", "-lm"]
+            subprocess.run(built, cwd=tmp_path, check=True)
+            found = subprocess.run([str(tmp_path / "run")], capture_output=True, text=True, check=False)
+            assert said in found.stdout
 
 
 def test_equal_steps_are_one_row() -> None:
-    assert [count for count, _, _ in held(LAMP)] == [2, 1, 1, 1]
-    _, _, (_, given, wanted), (_, last, _) = held(LAMP)
+    assert [count for count, _, _ in rows(LAMP)] == [2, 1, 1, 1]
+    _, _, (_, given, wanted), (_, last, _) = rows(LAMP)
     assert given == {"level": 0.25} and wanted == {"lit": None, "age": 45}
     assert last == {"seen_ms": 0, "on": False}
 
 
-def test_a_run_of_the_model_fits_the_functions_written_for_testgen() -> None:
+def test_a_run_of_the_model_fits_the_functions_written_for_generated_tests() -> None:
     """The structures are the same, so that a user writes the four functions once."""
-    board = boards()["board1"]
-    inputs, outputs = signals(board)
-    run = BoardRun("board1", 20, inputs, outputs, (), "")
-    shown = as_c(replace(CONCRETE["one"], concrete=(run,)))
-    header = FORMATS["c"](board, [])["cover_board1.h"]
-    structures = header[header.index("struct inputs") : header.index("#endif")]
-    assert structures in shown and "#ifndef COVER_BOARD1_H" in shown
+    assert interface(LAMP.board) in trace_c.render(CONCRETE["one"])
 
 
 def test_both_know_that_they_need_the_concrete_run() -> None:

@@ -1,5 +1,6 @@
 """Goals, searches and the choice of tests, on a toy board and on the boards as drawn."""
 
+import json
 from dataclasses import replace
 from random import Random
 
@@ -135,7 +136,7 @@ def test_scripts_and_rows_stand_for_the_same_inputs(name: str) -> None:
 def test_a_clock_that_jumps_is_no_test() -> None:
     inputs = [dict(s) for s in steps(TOY, toy("00"))]
     inputs[1]["now_ms"] = 60
-    with pytest.raises(ModelError, match="step 2 is at 60 ms"):
+    with pytest.raises(ModelError, match="Step 2 is at 60 ms"):
         script(TOY, inputs)
 
 
@@ -273,6 +274,18 @@ def test_a_fingerprint_is_of_the_charts_and_of_nothing_else() -> None:
 def test_answers_say_where_runs_come_from(covered: GoalCoverage) -> None:
     runs = [a for a in covered.answers.values() if isinstance(a, CoverFound)]
     assert runs and all(a.engine for a in runs)
+
+
+def test_a_file_of_the_format_before_is_read() -> None:
+    """In it a stamp is true where its datum is new."""
+    board = boards()["board1"]
+    made = written(board, KeptTests((("one", ("goal",), random_script("board1", 5)),)))
+    rows = '[[2, {"temp_last_valid_ms": true, "cmd": 1}], [1, {"temp_last_valid_ms": false}]]'
+    held = json.loads(made) | {"format": 1}
+    held["tests"][0]["held"] = json.loads(rows)
+    [(_, _, found)] = kept_of(board, json.dumps(held)).tests
+    assert [inputs["temp_last_valid_ms"] for inputs in steps(board, found)] == [20, 40, 40]
+    assert [moment["cmd"] for moment in found] == [1, 1, 1]
 
 
 def test_a_file_of_another_board_is_refused() -> None:

@@ -6,8 +6,8 @@ from rovercheck.checker.adapters import python
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept, kept_text
+from rovercheck.checker.testgen.expected_outputs import required
 from rovercheck.checker.testgen.fingerprint import fingerprint
-from rovercheck.checker.testgen.formats.expected_outputs import required
 from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.testgen.replay import first_reached
 from rovercheck.spec_model.abstraction import boards

@@ -40,7 +40,7 @@ def runs(found: Iterable[Found], known: Mapping[str, System]) -> dict[str, list[
             if system in known and concerns(board, known[system]):
                 ticks = (in_steps_of(board, known[system], {**t.inputs, **t.after}) for t in trace.ticks)
                 one = kept(f"{id} of {system}", board, ticks)
-                if all(one.stimulus != other.stimulus for other in kept_runs[name]):
+                if all(one.script != other.script for other in kept_runs[name]):
                     kept_runs[name].append(one)
     return kept_runs
 

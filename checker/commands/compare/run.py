@@ -14,7 +14,7 @@ from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
-from rovercheck.checker.compare.reproduce import file_name, pytest_file
+from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
 from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.variants import varied
@@ -138,8 +138,7 @@ def _write_tests(result: CompareResult, address: str, variant: Variant, folder: 
             raise UsageError(
                 f"Cannot make {whole(folder)}: {error.strerror}. Choose another --output."
             ) from error
-        repair = variant.repair.name if variant.repair else ""
-        write(pytest_file(found, address, variant.choices, repair), place)
+        write(reproduction(found, address, variant.name), place)
         written.append(place)
     return written
 

@@ -1,18 +1,18 @@
 """The report of a cross-check, for people in 80 columns and for machines."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
 
+from rovercheck.checker.board_tests.rows import in_rows
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
 from rovercheck.checker.compare.beside import StepMismatch, SteppedCharts, author_of
 from rovercheck.checker.compare.coverage import taken
-from rovercheck.checker.compare.reproduce import stimulus_of
+from rovercheck.checker.compare.reproduce import script_of
 from rovercheck.checker.compare.result import CompareResult, CompareStage, Failure
 from rovercheck.checker.compare.smaller import columns
-from rovercheck.checker.compare.stimulus import SILENT, Change, Every
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 from rovercheck.spec_model.lang.system import TICK_MS
@@ -104,16 +104,15 @@ def _inputs(mismatch: StepMismatch | Failure) -> Iterator[str]:
     """The inputs that are not at rest in the step, and since when; then how the run got there."""
     board = mismatch.board
     run = columns(board, [step.inputs for step in mismatch.steps])
-    resting = dict(ENVIRONMENTS[board.name].at_rest)
+    resting = ENVIRONMENTS[board.name].calm
     signals = {s.name: s for s in board.inputs}
     yield "   inputs that are not at rest in that step:"
     told = False
     for name, column in run.columns.items():
-        last, rest = column[-1], resting[name]
-        at_rest = last == 0 if isinstance(rest, Every) else last == rest
-        if not at_rest:
+        last = column[-1]
+        if last != resting[name]:
             since = next((k for k in range(len(column), 0, -1) if column[k - 1] != last), 0) + 1
-            value = _stamped(last) if isinstance(rest, Every) else signals[name].show(_known(last))
+            value = _stamped(last) if signals[name].stamp else signals[name].show(_known(last))
             told = True
             yield _wrapped(f"{name} = {value}, since step {since}", "     ")
     if not told:
@@ -135,24 +134,17 @@ def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
     """What changes when, from inputs at rest on."""
     board = mismatch.board
     signals = {s.name: s for s in board.inputs}
-    known: dict[str, Change] = dict(ENVIRONMENTS[board.name].at_rest)
-    step = 1
-    for block in stimulus_of(mismatch).blocks:
-        changed = []
-        for name, change in block.changes:
-            if known[name] != change:
-                changed.append(f"{name} = {_shown(signals, name, change)}")
-            known[name] = change
-        if changed or step == 1:
-            yield _wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
-        step += block.steps
+    resting, step = ENVIRONMENTS[board.name].calm, 1
+    for steps, changes, _ in in_rows(resting, {}, ((moment, {}) for moment in script_of(mismatch))):
+        changed = [f"{name} = {_shown(signals[name], value)}" for name, value in changes.items()]
+        yield _wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
+        step += steps
 
 
-def _shown(signals: Mapping[str, BoardSignal], name: str, change: Change) -> str:
-    if isinstance(change, Every):
-        return "silent" if change == SILENT else f"updated {change.lags_ms[0]} ms before each step"
-    assert isinstance(change, bool | int | float)
-    return signals[name].show(change)
+def _shown(signal: BoardSignal, value: Value | None) -> str:
+    if signal.stamp:
+        return "silent" if value is None else f"updated {value} ms before each step"
+    return signal.show(_known(value))
 
 
 def _transitions(mismatch: StepMismatch, author: str) -> Iterator[str]:

@@ -4,13 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from rovercheck.checker.compare.beside import SteppedCharts
-from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
+from rovercheck.checker.results.board_test import BoardStep, BoardTest
 from rovercheck.checker.results.trace import Tick, Trace
-from rovercheck.spec_model.abstraction import Board, BoardSignal, boards
+from rovercheck.checker.testgen.expected_outputs import under_test
+from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.abstraction.board import in_steps_of
-from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import parts
-from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import TICK_MS, System
 
@@ -57,25 +56,15 @@ def _foreign(trace: Trace, system: System) -> str:
     )
 
 
-def _run(board: Board, trace: Trace, system: System) -> BoardRun:
+def _run(board: Board, trace: Trace, system: System) -> BoardTest:
     """The run on one board.  Raises ``ModelError`` where its charts do something else."""
     writer, charts, names = board.writer(), SteppedCharts(board), _shared(board, trace)
-    stamps = {s.name for s in board.inputs if s.stamp}
-    before: Mapping[str, Value] = board.at_power_up()
     steps = []
     for tick in trace.ticks:
-        at = in_steps_of(board, system, {**tick.inputs, **tick.after})
-        inputs = writer.step(at)
-        required = charts.step(inputs).expected
+        inputs = writer.step(in_steps_of(board, system, {**tick.inputs, **tick.after}))
+        steps.append(BoardStep(inputs, charts.step(inputs).expected))
         _same(board, trace, tick, names, charts.valuation())
-        given = {n: _lag(inputs, before, n) if n in stamps else v for n, v in inputs.items() if n != NOW}
-        steps.append(BoardStep(given, required))
-        before = inputs
-    return BoardRun(board.name, TICK_MS, *signals(board), tuple(steps), board.supervisor)
-
-
-def _lag(inputs: Mapping[str, Value], before: Mapping[str, Value], stamp: str) -> Value | None:
-    return inputs[NOW] - inputs[stamp] if inputs[stamp] != before[stamp] else None
+    return BoardTest(under_test(board), trace.property.id or trace.system.name, tuple(steps))
 
 
 def _same(board: Board, trace: Trace, tick: Tick, names: Sequence[str], valuation: Mapping[str, int]) -> None:
@@ -97,23 +86,3 @@ def _shared(board: Board, trace: Trace) -> list[str]:
     if not found:
         raise ModelError(f"Nothing of what {trace.property.id} depends on is computed by {board.name}. {ASK}")
     return found
-
-
-def signals(board: Board) -> tuple[tuple[StepSignal, ...], tuple[StepSignal, ...]]:
-    """The inputs and the outputs of a board."""
-    return tuple(map(_signal, board.inputs)), tuple(_signal(o.signal) for o in board.outputs)
-
-
-def _signal(signal: BoardSignal) -> StepSignal:
-    return StepSignal(signal.name, _kind(signal), signal.initial, signal.doc or str(signal.domain.sort))
-
-
-def _kind(signal: BoardSignal) -> SignalKind:
-    if signal.stamp:
-        return SignalKind.CLOCK if signal.name == NOW else SignalKind.STAMP
-    match signal.domain.sort:
-        case Bool():
-            return SignalKind.BOOL
-        case Num(resolution, _) if not (signal.whole and resolution == 1):
-            return SignalKind.NUMBER
-    return SignalKind.WHOLE
