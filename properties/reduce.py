@@ -14,10 +14,9 @@ from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When, ite
 from rovercheck.spec_model.lang.lower.ranges import possible
-from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import Statement, System, TransitionSystem
 from rovercheck.spec_model.lang.time import Span
-from rovercheck.spec_model.lang.walk import plain, structure, variables
+from rovercheck.spec_model.lang.walk import outermost, plain, structure, variables
 from rovercheck.spec_model.lang.wellformed.data import twin_faults
 from rovercheck.spec_model.lang.words import maximum, minimum
 
@@ -106,7 +105,7 @@ class _Monitors:
             self._at_end(f"{prop.id}.recurs{i}", self(c), f"{c} in this tick")
             for i, c in enumerate(_recurring(prop))
         )
-        parts = [(p, self(p)) for p in (_conjuncts(wanted) if wanted is not None else ())]
+        parts = [(p, self(p)) for p in (outermost(wanted) if wanted is not None else ())]
         passing = {prop.id, *(v.name for v in recurs)}
         return Goal(prop, var, wanted is None, tuple(parts), frozenset(self._used - passing), recurs)
 
@@ -327,11 +326,6 @@ def _recurring(prop: Property) -> tuple[Expr, ...]:
             return (~then, *fair)
         case _:
             return ()
-
-
-def _conjuncts(expr: Expr) -> tuple[Expr, ...]:
-    inner = plain(expr)
-    return inner.args if isinstance(inner, Apply) and inner.op is Op.AND else (expr,)
 
 
 def _zero(counter: Var) -> Const:

@@ -1,6 +1,6 @@
 """Every property that speaks of logged signals as a monitor of the log, block by block."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -16,10 +16,9 @@ from rovercheck.checker.logs.selection import MonitoredProperty, PropertySelecti
 from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.forms import Form, Never, Property, Reachable
 from rovercheck.properties.pasttime import Bounded
-from rovercheck.spec_model.lang.expr import FALSE, Apply, Expr, Var
+from rovercheck.spec_model.lang.expr import FALSE, Expr, Var
 from rovercheck.spec_model.lang.label import text
-from rovercheck.spec_model.lang.operators import Op
-from rovercheck.spec_model.lang.walk import plain, variables
+from rovercheck.spec_model.lang.walk import outermost, variables
 
 
 @dataclass(frozen=True)
@@ -207,7 +206,7 @@ _NOTHING = Property("", "", Never(FALSE), (), "")
 
 def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: int) -> FirstViolation:
     wanted, negated = required(judge.property.form)
-    false = [p for p in _conjuncts(wanted) if bool(rows.truth(p, judge.past)[row]) == negated]
+    false = [p for p in outermost(wanted) if bool(rows.truth(p, judge.past)[row]) == negated]
     read = variables(wanted)
     values = {name: _shown(var, rows.columns[name][row]) for name, var in read.items()}
     return FirstViolation(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
@@ -219,11 +218,6 @@ def required(form: Form) -> tuple[Expr, bool]:
         return form.that, True
     assert isinstance(form, Bounded) and form.wanted is not None, "no finite run breaks it"
     return form.wanted, False
-
-
-def _conjuncts(expr: Expr) -> Sequence[Expr]:
-    inner = plain(expr)
-    return inner.args if isinstance(inner, Apply) and inner.op is Op.AND else (expr,)
 
 
 def _shown(var: Var, value: float) -> str:

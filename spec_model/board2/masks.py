@@ -5,7 +5,8 @@ The document has no table of these bits (E24); only the own sources of Board 2 h
 
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
-from rovercheck.spec_model.lang.expr import Expr, Var, const, ite
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.words import mask_of
 from rovercheck.spec_model.signals.board2_supervisor import (
     b1_sup_status,
     critical_mask,
@@ -24,18 +25,11 @@ COMPONENTS: tuple[tuple[Var, str, str], ...] = (
 """Bit 0 first: the status, its critical and its degraded level."""
 
 
-def _mask(bits: list[Expr]) -> Expr:
-    total: Expr = const(0)
-    for index, set_ in enumerate(bits):
-        total = total + ite(set_, const(2**index), const(0))
-    return total
-
-
 fault_masks_2 = Block(
     "Fault_masks_2",
     [
-        assign(critical_mask, _mask([status == critical for status, critical, _ in COMPONENTS])),
-        assign(degraded_mask, _mask([status == degraded for status, _, degraded in COMPONENTS])),
+        assign(critical_mask, mask_of([status == critical for status, critical, _ in COMPONENTS])),
+        assign(degraded_mask, mask_of([status == degraded for status, _, degraded in COMPONENTS])),
     ],
     text="The critical and the degraded mask of Board 2 from the four statuses.",
 )

@@ -5,9 +5,8 @@ and avoiding, and it does not wait for wheel speeds that no longer arrive: with 
 an emergency stop counts as done after 2 s.
 """
 
-from rovercheck.spec_model.board2.backward import toggle_2
 from rovercheck.spec_model.lang.action import assign, when
-from rovercheck.spec_model.lang.chart import Block, Chart, Component, Junction, State, to
+from rovercheck.spec_model.lang.chart import Block, Chart, Junction, State, to
 from rovercheck.spec_model.lang.expr import all_of, const, ite
 from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.lang.words import absolute, after, duration, named
@@ -163,6 +162,3 @@ check_stop_2 = Block(
     [assign(wheels_below_2_5, all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())))],
     text="All four wheels slower than 2.5 rpm, as Board 1 last reported.",
 )
-
-REFERENCES2_PARTS: tuple[Component, ...] = (check_stop_2, toggle_2, motion_supervision_2)
-"""The reference chart of Board 2, as drawn: its two regions in execution order, after checkStop."""

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+from rovercheck.spec_model.lang.operators import Op
 
 
 def children(expr: Expr) -> tuple[Expr, ...]:
@@ -48,6 +49,12 @@ def plain(expr: Expr) -> Expr:
     while isinstance(expr, Named):
         expr = expr.body
     return expr
+
+
+def outermost(expr: Expr) -> tuple[Expr, ...]:
+    """The parts of a conjunction, which are not looked into; else the formula alone."""
+    inner = plain(expr)
+    return inner.args if isinstance(inner, Apply) and inner.op is Op.AND else (expr,)
 
 
 def structure(expr: Expr) -> tuple[object, ...]:

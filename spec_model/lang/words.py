@@ -1,5 +1,6 @@
 """The words of formulas beyond operators: arithmetic functions, names, and the temporal words."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rovercheck.spec_model.lang.domain import Bool, Num, Number, exact
@@ -76,6 +77,14 @@ def bit(mask: Expr, index: int) -> Expr:
     if not isinstance(sort, Num) or sort.resolution != 1 or index < 0:
         raise ModelError(f"bit({mask}, {index}) needs a whole number and an index >= 0.")
     return Apply(Op.BIT, (mask, Const(index, Num())), Bool())
+
+
+def mask_of(bits: Sequence[Expr]) -> Expr:
+    """The number whose bits these are, bit 0 first."""
+    total: Expr = const(0)
+    for index, bit_ in enumerate(bits):
+        total = total + ite(bit_, const(2**index), const(0))
+    return total
 
 
 def named(name: str, body: Expr) -> Named:

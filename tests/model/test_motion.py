@@ -14,7 +14,12 @@ from rovercheck.spec_model.board1.backward import toggle
 from rovercheck.spec_model.board1.limits import update_safety_limits
 from rovercheck.spec_model.board1.motion import motion_with_free_error
 from rovercheck.spec_model.board1.safety import safety_state
-from rovercheck.spec_model.board2.motion import REFERENCES2_PARTS, motion_2_with_free_error
+from rovercheck.spec_model.board2.backward import toggle_2
+from rovercheck.spec_model.board2.motion import (
+    check_stop_2,
+    motion_2_with_free_error,
+    motion_supervision_2,
+)
 from rovercheck.spec_model.lang.chart import Enabled
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.interpret import Interpreter
@@ -29,7 +34,9 @@ Block = tuple[int, Given]
 
 BOARD1 = in_order("board1_references", REFERENCES)
 FREE1 = in_order("board1_free", safety_state, update_safety_limits, motion_with_free_error)
-BOARD2 = in_order("board2_references", Enabled(autorized_to_send_command, *REFERENCES2_PARTS))
+BOARD2 = in_order(
+    "board2_references", Enabled(autorized_to_send_command, check_stop_2, toggle_2, motion_supervision_2)
+)
 FREE2 = in_order("board2_free", motion_2_with_free_error)
 TOGGLE = in_order("toggle", toggle)
 

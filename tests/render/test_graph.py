@@ -12,7 +12,6 @@ from jsonschema import validate
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.explore.graphs.projection import project
-from rovercheck.checker.explore.graphs.reachable_ticks import tabulated
 from rovercheck.checker.render.stategraph.findings import findings, findings_text
 from rovercheck.checker.render.stategraph.fragment import document, rows
 from rovercheck.checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
@@ -25,6 +24,7 @@ from rovercheck.spec_model.lang.expr import Var, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import toys
 from tests.render.conformance import Suite
+from tests.render.tabulated import tabulated
 from tests.render.zoo import GRAPHS, long_trace, ring, short_trace
 from tests.schemas import published
 

@@ -1,7 +1,6 @@
 """Toy charts, graphs and traces that every renderer must be able to show."""
 
 from rovercheck.checker.explore.graphs.projection import project
-from rovercheck.checker.explore.graphs.reachable_ticks import tabulated
 from rovercheck.checker.results.graph import StateGraph, with_trace
 from rovercheck.checker.results.trace import TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.action import assign, send, when
@@ -10,6 +9,7 @@ from rovercheck.spec_model.lang.domain import enumeration, fixed, integer
 from rovercheck.spec_model.lang.expr import Var, flag, var
 from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.lang.words import after, duration, named, rising
+from tests.render.tabulated import tabulated
 from tests.traces import trace_of
 
 level = var("level", integer(0, 300), 0, "how high <it> stands & more")
