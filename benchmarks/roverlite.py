@@ -2,7 +2,7 @@
 
 The parts are chosen by the bits of ``comp`` (1 temperature, 2 battery, 4 reception, 8 heartbeat,
 16 relay, 32 obstacles, 64 observer of P5); timers are divided by ``k``.  ``benchmarks/peers`` holds
-the same model for other tools, ``tests/checker/test_roverlite.py`` as a plain reference.
+the same model for other tools, ``tests/engines/test_roverlite.py`` as a plain reference.
 """
 
 from collections.abc import Sequence

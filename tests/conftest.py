@@ -4,6 +4,7 @@ import os
 import signal
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -42,3 +43,21 @@ def cc() -> str:
     if found is None:
         pytest.skip("there is no C compiler on this machine (cc, gcc, clang)")
     return found
+
+
+@pytest.fixture(scope="module")
+def solver_in_this_process() -> Iterator[None]:
+    """The certifier's solver without a child process, for many small questions."""
+    from tests.certifying import solving_here
+
+    with solving_here():
+        yield
+
+
+@pytest.fixture(scope="module")
+def engines_in_this_process() -> Iterator[None]:
+    """Every engine without a child process, and the certifier's solver too."""
+    from tests.engine_children import engines_here
+
+    with engines_here():
+        yield

@@ -160,7 +160,7 @@ SHOWN = {
     ),
     ("docs/mutate.md", "Relay/default.1/target"): "tests/cli/test_mutate.py has the survivor",
     ("docs/timers.md", "all 425 reachable states of references                                exact"): (
-        "three ways to count, of three systems; tests/checker has the texts"
+        "three ways to count, of three systems; tests/engines has the texts"
     ),
 }
 """Listings that are no command, no file and no program, by page and first line, and why."""

@@ -16,7 +16,7 @@ from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
 from rovercheck.spec_model.lang.expr import Apply, Const, Var, flag
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
-from tests.checker.test_bitvector import CASES, sort_of
+from tests.encode.test_bitvector import CASES, sort_of
 from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.reading import Machine
 from tests.profiles import examples

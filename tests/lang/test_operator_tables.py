@@ -6,7 +6,7 @@ from importlib import import_module
 from pathlib import Path
 
 from rovercheck.spec_model.lang.operators import Op
-from tests.checker.test_bitvector import CASES
+from tests.encode.test_bitvector import CASES
 
 ROOT = Path(__file__).parents[2]
 NAME = "OPERATIONS"
@@ -44,7 +44,7 @@ def lacking(tables: Mapping[str, Mapping[Op, object]]) -> dict[str, list[Op]]:
 
 def test_every_table_has_a_row_for_every_operator() -> None:
     tables = {name: getattr(import_module(name), NAME) for name, m in TARGETS.items() if has_table(m)}
-    assert lacking({**tables, "tests.checker.test_bitvector.CASES": CASES}) == {}
+    assert lacking({**tables, "tests.encode.test_bitvector.CASES": CASES}) == {}
 
 
 def test_a_table_that_lacks_a_row_is_named() -> None:

@@ -149,7 +149,7 @@ def test_nobody_listens_any_more() -> None:
 PARENT = """
 from contextlib import closing
 from rovercheck.checker.process.isolate import messages
-from tests.checker import test_isolate
+from tests.process import test_isolate
 with closing(messages(test_isolate.{work}, 60)) as inbox:
     for message in inbox:
         if message is not None:

@@ -23,7 +23,7 @@ from rovercheck.spec_model.lang.expr import Var, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
-from tests.checker.test_bdd import agrees
+from tests.engines.test_bdd import agrees
 from tests.faults import PatchSuite
 from tests.strategies_ts import goals, transition_systems
 

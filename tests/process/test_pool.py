@@ -10,8 +10,8 @@ import pytest
 
 from rovercheck.checker.process.isolate import Send, messages
 from rovercheck.checker.process.pool import GrantedTime, Order, Pool, PoolEvent
-from tests.checker.test_isolate import _tell_and_sleep as tell_and_sleep
-from tests.checker.test_isolate import gone
+from tests.process.test_isolate import _tell_and_sleep as tell_and_sleep
+from tests.process.test_isolate import gone
 
 
 class Doing:

@@ -24,7 +24,7 @@ from rovercheck.spec_model.lang.words import bit, maximum
 from rovercheck.spec_model.signals import board2 as obstacles
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.common import COMMAND, RX_STATUS
-from tests.mutants.faults import (
+from tests.chart_faults.faults import (
     ChartFaults,
     expressions,
     forgotten,

@@ -20,7 +20,7 @@ from rovercheck.spec_model.lang.edit import (
 from rovercheck.spec_model.lang.expr import Apply, Expr, all_of
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.time import sec
-from tests.mutants.faults import ChartFaults, in_charts
+from tests.chart_faults.faults import ChartFaults, in_charts
 
 
 def _without(position: int) -> Callable[[Expr], Expr]:

@@ -13,7 +13,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import TRUE, Var, all_of, const, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
-from tests.checker.test_explicit import UNLIMITED, check, exhausted
+from tests.engines.test_explicit import UNLIMITED, check, exhausted
 
 
 def counters(*sizes: int) -> tuple[TransitionSystem, Var]:

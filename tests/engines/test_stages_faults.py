@@ -12,8 +12,8 @@ from rovercheck.checker.encode.path_statements import Choose
 from rovercheck.checker.system import partition
 from rovercheck.spec_model.lang.expr import TRUE, Expr
 from rovercheck.spec_model.lang.system import TransitionSystem
-from tests.checker.compared import Differs, compare
-from tests.checker.test_stages import GROUPS
+from tests.engines.compared import Differs, compare
+from tests.engines.test_stages import GROUPS
 from tests.faults import PatchSuite
 
 

@@ -23,8 +23,16 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.rover import charts
 from rovercheck.spec_model.signals import board1 as b1
-from tests.mutants import test_board2_faults, test_composition_faults, test_motion_faults
-from tests.mutants.faults import ChartFaults, expressions, goes_to, in_blocks, in_charts, value, with_fault
+from tests.chart_faults import test_board2_faults, test_composition_faults, test_motion_faults
+from tests.chart_faults.faults import (
+    ChartFaults,
+    expressions,
+    goes_to,
+    in_blocks,
+    in_charts,
+    value,
+    with_fault,
+)
 
 
 def _forget_sonar(expr: Expr) -> Expr:

@@ -9,7 +9,7 @@ from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.expr import flag
 from rovercheck.spec_model.lang.system import Assumption, in_order
-from tests.exploring.test_simulation import system
+from tests.explore.test_simulation import system
 
 
 def begun() -> Session:

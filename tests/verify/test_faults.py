@@ -124,7 +124,7 @@ def test_an_error_in_a_process_of_an_engine_is_told(monkeypatch: pytest.MonkeyPa
     found, faults = asked(monkeypatch, Patient("middle", ValueError("deep inside")))
     assert found["on"] == Open("ValueError: deep inside", 2)
     assert [(f.who, f.system) for f in faults] == [("broken", "toggle")]
-    assert faults[0].error.startswith("ValueError: deep inside (tests.checker.test_faults, line ")
+    assert faults[0].error.startswith("ValueError: deep inside (tests.verify.test_faults, line ")
 
 
 @pytest.mark.parametrize("error", [MemoryError(), RuntimeError("std::bad_alloc"), OSError(11, "try again")])

@@ -25,7 +25,7 @@ from rovercheck.spec_model.lang.expr import TRUE, Expr, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
-from tests.checker.test_pdr import justified
+from tests.engines.test_pdr import justified
 from tests.faults import PatchSuite
 from tests.toys import filling
 

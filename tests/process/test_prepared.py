@@ -8,7 +8,7 @@ import pytest
 
 from rovercheck.checker.process import isolate
 from rovercheck.checker.process.isolate import ChildStopped, Send, messages, prepared
-from tests.checker.test_isolate import gone
+from tests.process.test_isolate import gone
 
 SELDOM_READ = "wave"
 

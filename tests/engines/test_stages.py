@@ -28,8 +28,8 @@ from rovercheck.spec_model.lang.expr import Var, all_of, any_of, flag, ite, memb
 from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
-from tests.checker.compared import Group, compare
-from tests.checker.test_explicit import agrees, check, exhausted
+from tests.engines.compared import Group, compare
+from tests.engines.test_explicit import agrees, check, exhausted
 from tests.profiles import examples
 from tests.strategies_stages import staged_systems
 from tests.strategies_ts import goals, transition_systems

@@ -10,9 +10,9 @@ from rovercheck.checker.engines import Timers
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import naive
-from tests.checker.compared import Group, compare, long, many, mixed, overflowing, wide
-from tests.checker.test_explicit import agrees
-from tests.checker.test_stages import sonars
+from tests.engines.compared import Group, compare, long, many, mixed, overflowing, wide
+from tests.engines.test_explicit import agrees
+from tests.engines.test_stages import sonars
 from tests.strategies_stages import staged_systems
 from tests.strategies_ts import goals, transition_systems
 

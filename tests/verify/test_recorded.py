@@ -20,7 +20,7 @@ from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
 from rovercheck.spec_model.lang.system import TransitionSystem
-from tests.checker.test_kinduction import agrees, answered, searched
+from tests.engines.test_kinduction import agrees, answered, searched
 from tests.inductive import problems
 from tests.profiles import examples
 from tests.strategies_ts import booleans, goals, transition_systems

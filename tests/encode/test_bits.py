@@ -16,7 +16,7 @@ from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
 from rovercheck.spec_model.lang.expr import Apply, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
-from tests.checker.test_bitvector import CASES, sort_of
+from tests.encode.test_bitvector import CASES, sort_of
 from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 

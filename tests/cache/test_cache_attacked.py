@@ -18,7 +18,7 @@ from rovercheck.checker.encode.native import fingerprint
 from rovercheck.checker.results.verdict import Answer, Reached, Unreachable
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.expr import flag
-from tests.checker.test_cache import answers, compiled, folder, system
+from tests.cache.test_cache import answers, compiled, folder, system
 
 __all__ = ["compiled", "folder"]  # fixtures
 

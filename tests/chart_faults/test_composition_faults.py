@@ -7,7 +7,7 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Var, flag, member
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
-from tests.mutants.faults import ChartFaults, expressions, forgotten, in_blocks, mistaken, reads, value
+from tests.chart_faults.faults import ChartFaults, expressions, forgotten, in_blocks, mistaken, reads, value
 
 
 def _slot(age: str, what: str) -> Var:

@@ -24,7 +24,7 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
-from tests.checker.compared import SYSTEMS, Differs, Group, chain, compare, must_agree
+from tests.engines.compared import SYSTEMS, Differs, Group, chain, compare, must_agree
 from tests.faults import PatchSuite
 
 # --- faults ------------------------------------------------------------------------------------------

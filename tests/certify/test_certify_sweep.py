@@ -25,8 +25,8 @@ from rovercheck.checker.system.intervals import postorder
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.expr import Var, flag
 from rovercheck.spec_model.lang.system import TransitionSystem
+from tests.certify.test_certify_diagram import sets
 from tests.certifying import BACK, BOTH, COUNT, certified, closed_set, counting, many, proofs
-from tests.checker.test_certify_diagram import sets
 from tests.naive import vectors
 from tests.strategies_ts import transition_systems
 

@@ -30,8 +30,8 @@ from rovercheck.checker.verify.searches import (
 )
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
-from tests.checker.test_cache import folder
-from tests.checker.test_searches import Erratic, work
+from tests.cache.test_cache import folder
+from tests.verify.test_searches import Erratic, work
 
 __all__ = ["folder"]  # a fixture
 ROOT = Path(__file__).parents[2]
@@ -186,7 +186,7 @@ def test_the_command_says_it_on_standard_error(folder: Path, tmp_path: Path) -> 
 
 ALONE = """
 from rovercheck.checker.cache import run_marks
-from tests.checker.test_cache import answers, system
+from tests.cache.test_cache import answers, system
 print(*answers(system()), len(run_marks._marks))
 """
 
