@@ -38,7 +38,7 @@ class OutOfTime(Exception):
 
 
 @dataclass(frozen=True)
-class Answer:
+class ForcedEnd:
     """Whether what was assumed forces the end (None: the solver gave up), and which part of it does."""
 
     forced: bool | None
@@ -99,12 +99,12 @@ class Unrolled:
         self._solver.add_clause([-assumption, *either])
         return assumption
 
-    def asked(self, assumptions: Collection[int], conflicts: int = CONFLICTS) -> Answer:
+    def asked(self, assumptions: Collection[int], conflicts: int = CONFLICTS) -> ForcedEnd:
         """Whether the end can be avoided with these assumptions."""
         self._solver.conf_budget(conflicts)
         found = self._solver.solve_limited(assumptions=list(assumptions), expect_interrupt=True)
         core = self._solver.get_core() if found is False else None
-        return Answer(None if found is None else not found, frozenset(core or ()))
+        return ForcedEnd(None if found is None else not found, frozenset(core or ()))
 
     def changed(self) -> set[Place]:
         """The inputs that have other values than in the run, in that just found to avoid the end."""

@@ -12,7 +12,7 @@ from rovercheck.checker.testgen.keep import KeptTests
 from rovercheck.checker.testgen.replay import first_reached as replayed
 from rovercheck.checker.testgen.scripts import Script, steps
 from rovercheck.checker.testgen.search import (
-    Answer,
+    CoverAnswer,
     CoverFound,
     OpenGoal,
     SearchProgress,
@@ -46,7 +46,7 @@ class GoalCoverage:
     board: Board
     goals: tuple[CoverGoal, ...]
     scripts: list[tuple[Script, dict[str, int]]] = field(default_factory=list)
-    answers: dict[str, Answer] = field(default_factory=dict)
+    answers: dict[str, CoverAnswer] = field(default_factory=dict)
     before: Mapping[str, str] = field(default_factory=dict)
     """Why goals were unknown in an earlier generation."""
 
@@ -165,7 +165,7 @@ def _by_engines(
         _note(coverage, answer, tell)
 
 
-def _note(coverage: GoalCoverage, answer: Answer | SearchProgress, tell: Tell) -> None:
+def _note(coverage: GoalCoverage, answer: CoverAnswer | SearchProgress, tell: Tell) -> None:
     match answer:
         case SearchProgress(line):
             tell(line)

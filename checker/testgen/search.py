@@ -72,7 +72,7 @@ class OpenGoal:
     reason: str
 
 
-Answer = CoverFound | Uncoverable | OpenGoal
+CoverAnswer = CoverFound | Uncoverable | OpenGoal
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class SearchProgress:
 
 def searched(
     board: Board, system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
-) -> Iterator[Answer | SearchProgress]:
+) -> Iterator[CoverAnswer | SearchProgress]:
     """Run the engines for goals on a system whose runs the board has: those of its model."""
     for goal, verdict in _verdicts(system, goals, limits, jobs):
         match verdict:

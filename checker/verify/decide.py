@@ -19,9 +19,9 @@ from rovercheck.checker.verify.portfolio import (
     answers,
     as_found,
 )
-from rovercheck.checker.verify.portfolio.question import EngineAnswer
+from rovercheck.checker.verify.portfolio.question import EngineAnswer, Found
 from rovercheck.checker.verify.portfolio.shape import shape
-from rovercheck.checker.verify.result import Answers, Result, check_domains, result
+from rovercheck.checker.verify.result import Result, check_domains, result
 from rovercheck.checker.verify.runs.replay import ReplayError
 from rovercheck.checker.verify.runs.reproduce import moved, not_reproducible, reproduced
 from rovercheck.checker.verify.tasks import Task, tasks
@@ -33,7 +33,7 @@ from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 # --- properties decided where timers may expire at any time, as far as that goes (docs/timers.md)
 
-Query = Callable[[TransitionSystem, Sequence[Var]], Answers]
+Query = Callable[[TransitionSystem, Sequence[Var]], Found]
 """An answer for each goal, and for each check of the system."""
 
 
@@ -120,13 +120,13 @@ class EngineCall:
     deadline: float | None = None
     recorded: Sequence[Tree] | None = None
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], prior: Prior = Prior.NONE) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], prior: Prior = Prior.NONE) -> Found:
         """An answer for each goal and for each check of the system."""
         engine = AUTO if prior is Prior.CONCRETE and self.engine != ALL else self.engine
         question = PortfolioQuestion(system, tuple(goals), prior, self._candidates(system))
         return self._late(question) or answers(question, engine, self._left(system), self.callbacks)
 
-    def as_found(self, system: TransitionSystem, goals: Sequence[Var]) -> Iterator[Answers]:
+    def as_found(self, system: TransitionSystem, goals: Sequence[Var]) -> Iterator[Found]:
         """The same, each as soon as it is known."""
         question = PortfolioQuestion(system, tuple(goals), candidates=self._candidates(system))
         if late := self._late(question):
@@ -144,7 +144,7 @@ class EngineCall:
         self.callbacks.progress(Stage(f"slicing {system.name}"))
         return self.limits.until(self.deadline)
 
-    def _late(self, question: PortfolioQuestion) -> Answers:
+    def _late(self, question: PortfolioQuestion) -> Found:
         """What is answered when the time is over before a question is asked; nothing before that."""
         if self.deadline is None or monotonic() < self.deadline:
             return {}

@@ -23,14 +23,11 @@ from rovercheck.properties.reduce import Goal
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
-Answers = Found
-"""An answer for each goal and the name of the engine that gave it."""
-
 
 class EngineQuery(Protocol):
     """Runs the engines that the user chose; ``prior`` is what is known of the answer."""
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], prior: Prior = Prior.NONE) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], prior: Prior = Prior.NONE) -> Found:
         """An answer for each goal and for each check of the system."""
         ...
 
@@ -72,7 +69,7 @@ def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> V
             return Unknown(reason, depth, by)
 
 
-def check_domains(system: TransitionSystem, found: Answers) -> None:
+def check_domains(system: TransitionSystem, found: Found) -> None:
     """Raises ``LeavesDomain``, of the shortest run that leaves a domain, if one is known."""
     checks = {check.name: found[check.name][0] for check, _ in system.checks if check.name in found}
     runs = [answer for answer in checks.values() if isinstance(answer, Reached)]

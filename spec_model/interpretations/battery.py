@@ -2,7 +2,7 @@
 
 from rovercheck.spec_model.board1.battery import FALL, absent, assumed_b, b, critical_range, stale_below_15
 from rovercheck.spec_model.interpretations import alternative
-from rovercheck.spec_model.lang.change import formula, guard, inside, without
+from rovercheck.spec_model.lang.change import formula, guards, inside, without
 from rovercheck.spec_model.lang.chart import to
 from rovercheck.spec_model.lang.edit import also, arrows, begin, in_expressions, timer
 from rovercheck.spec_model.lang.expr import TRUE
@@ -24,7 +24,7 @@ ALTERNATIVES = (
     alternative("S16", "NONDET", "Either row may be tested first.", MONITOR,
         lambda chart: also(chart, "decide", to("Batt_DEG", when=degraded_row_counts & degraded), first=True)),
     alternative("S17", "OK-DEFAULT", "Between 23 % and 25 % the battery is OK.", MONITOR,
-        guard("decide", "Batt_OK", lambda _: b >= 23)),
+        guards("decide", "Batt_OK", lambda _: b >= 23)),
     alternative("S17", "DEG-DEFAULT", "Between 23 % and 25 % the battery is degraded.", MONITOR,
         formula(degraded, degraded | between_the_limits)),
     alternative("S26", "TABLE1", "Absence of readings is degraded.", MONITOR,
@@ -34,7 +34,7 @@ ALTERNATIVES = (
     alternative("S23", "ESTIMATED", "The limit of 23 % holds for the estimate too.", MONITOR,
         formula(degraded, degraded | (absent & (assumed_b < 23)))),
     alternative("S24", "FROM-LAST-SUSTAINED", "The estimate needs 5 s too.", MONITOR,
-        guard("decide", "Batt_CRIT", inside(stale_below_15, lambda stale: held(stale, for_=5 * sec)))),
+        guards("decide", "Batt_CRIT", inside(stale_below_15, lambda stale: held(stale, for_=5 * sec)))),
     alternative("S24", "FROM-0.5-INSTANT", "The fall begins after 0.5 s.", MONITOR,
         formula(assumed_b, named("assumed_b", b - (batt_age - 500) * FALL))),
     alternative("S15", "TEMP", "The critical row is about the temperature, as it is written.", MONITOR,

@@ -7,7 +7,7 @@ from rovercheck.spec_model.board1.relay import neither_critical, rx_critical, su
 from rovercheck.spec_model.board1.safety import critical, degraded
 from rovercheck.spec_model.interpretations import alternative
 from rovercheck.spec_model.lang.action import assign, when
-from rovercheck.spec_model.lang.change import at_once, formula, formulas, guard, lasting
+from rovercheck.spec_model.lang.change import at_once, formula, formulas, guards, lasting
 from rovercheck.spec_model.lang.chart import Block, Enabled
 from rovercheck.spec_model.lang.edit import swap
 from rovercheck.spec_model.lang.expr import TRUE, Expr, Named, all_of, any_of
@@ -77,13 +77,13 @@ RELAY_ALTERNATIVES = (
     alternative("S44", "STRICT-OK-KEPT", "The motors return when both are OK.", RELAY,
         formula(neither_critical, both_ok)),
     alternative("S44", "STRICT-OK-1", "The motors are given unless both are OK.", RELAY,
-        guard("B1_actuating", "B2_actuating", lambda _: ~both_ok),
+        guards("B1_actuating", "B2_actuating", lambda _: ~both_ok),
         formula(neither_critical, both_ok)),
     alternative("S50", "ANY-CRITICAL", "Any critical component gives the motors.", RELAY,
-        guard("B1_actuating", "B2_actuating", lambda given: given | (critical_mask != 0)),
-        guard("B2_actuating", "B1_actuating", lasting(lambda returned: returned & (critical_mask == 0)))),
+        guards("B1_actuating", "B2_actuating", lambda given: given | (critical_mask != 0)),
+        guards("B2_actuating", "B1_actuating", lasting(lambda returned: returned & (critical_mask == 0)))),
     alternative("S45", "IMMEDIATE", "The motors return without delay.", RELAY,
-        guard("B2_actuating", "B1_actuating", at_once)),
+        guards("B2_actuating", "B1_actuating", at_once)),
 )  # fmt: skip
 
 # --- safety state, and what is computed while Board 2 actuates (S48, S49, S56) ---------------------------

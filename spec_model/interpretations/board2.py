@@ -25,8 +25,8 @@ from rovercheck.spec_model.lang.change import (
     doing,
     formula,
     formulas,
-    guard,
     guard_of,
+    guards,
 )
 from rovercheck.spec_model.lang.chart import Block, Chart
 from rovercheck.spec_model.lang.expr import FALSE, Expr, Var, all_of, const, ite
@@ -84,8 +84,8 @@ def recovers_at_once(chart: Chart) -> Chart:
     """A critical source returns as soon as it is not silent, a degraded one as soon as its mean is short."""
     for region in chart.root.states:
         silent = guard_of(chart, f"{region.name}.OK", "CRIT")
-        chart = guard(f"{region.name}.DEG", "OK", at_once)(chart)
-        chart = guard(f"{region.name}.CRIT", "OK", constantly(~silent))(chart)
+        chart = guards(f"{region.name}.DEG", "OK", at_once)(chart)
+        chart = guards(f"{region.name}.CRIT", "OK", constantly(~silent))(chart)
     return chart
 
 
@@ -125,7 +125,7 @@ both_ok = (rx_status == "RX_OK") & (b1_sup_status == "SUP_OK")
 
 def asks(condition: Expr) -> Change:
     """When Board 2 drives."""
-    return guard("B1_actuating", "B2_trying_to_actuate", lambda _: named("q", condition))
+    return guards("B1_actuating", "B2_trying_to_actuate", lambda _: named("q", condition))
 
 
 def returns(condition: Expr) -> Change:
@@ -151,5 +151,5 @@ ALTERNATIVES = (
         asks(b1_requests_switch),
         returns(~b1_requests_switch)),
     alternative("S45", "IMMEDIATE", "The motors return without delay.", CHECK,
-        guard("B2_trying_to_actuate", "B1_actuating", at_once)),
+        guards("B2_trying_to_actuate", "B1_actuating", at_once)),
 )  # fmt: skip

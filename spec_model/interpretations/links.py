@@ -1,7 +1,7 @@
 """Link monitors of Board 1 under other interpretations: reception and heartbeat (S37 to S39, S41, S65)."""
 
 from rovercheck.spec_model.interpretations import Alternative, Change, alternative
-from rovercheck.spec_model.lang.change import ENTERED, formula, guard, guard_of
+from rovercheck.spec_model.lang.change import ENTERED, formula, guard_of, guards
 from rovercheck.spec_model.lang.chart import Chart, to
 from rovercheck.spec_model.lang.edit import begin, operator, swap
 from rovercheck.spec_model.lang.expr import Var
@@ -38,13 +38,13 @@ def of_a_link(chart: str, prefix: str, age: str, slow: Var, hold: Span) -> tuple
 
     def heard_for_long(drawn: Chart) -> Chart:
         silent = guard_of(drawn, "decide", critical)
-        return guard(critical, "decide", lambda _: duration(~silent) > hold)(drawn)
+        return guards(critical, "decide", lambda _: duration(~silent) > hold)(drawn)
 
     return (
         alternative("S65", "DEFAULT-OK", "The first step is OK, whatever comes.", chart,
             lambda drawn: begin(drawn, [to(f"{prefix}_OK")])),
         alternative("S38", "MEAN-BASED", "Critical is left once the mean is short enough.", chart,
-            guard(critical, "decide", lambda _: ~slow)),
+            guards(critical, "decide", lambda _: ~slow)),
         alternative("S38", "HOLD-TIME", "Critical is left once the link was heard for long enough.", chart,
             heard_for_long),
         alternative("S39", "DEG-WINS", "The degraded row is tested before the critical one.", chart,
@@ -57,7 +57,7 @@ def of_a_link(chart: str, prefix: str, age: str, slow: Var, hold: Span) -> tuple
 def on_a_live_link(age: Var) -> tuple[Change, ...]:
     """The heartbeat is judged while frames arrive only; on a dead link the status is kept."""
     sources = (ENTERED, "Sup_OK", "Sup_DEG", "Sup_CRIT")
-    return tuple(guard(source, "decide", lambda g: g & ~(age > 120)) for source in sources)
+    return tuple(guards(source, "decide", lambda g: g & ~(age > 120)) for source in sources)
 
 
 ALTERNATIVES = (

@@ -5,7 +5,7 @@ from dataclasses import replace
 from rovercheck.spec_model.board1.motion import critical, may_move, stop_commanded
 from rovercheck.spec_model.interpretations import Change, alternative
 from rovercheck.spec_model.lang.action import assign
-from rovercheck.spec_model.lang.change import formula, formulas, guard, inside
+from rovercheck.spec_model.lang.change import formula, formulas, guards, inside
 from rovercheck.spec_model.lang.edit import edit_state
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Operand, flag, var
 from rovercheck.spec_model.lang.words import maximum, minimum
@@ -58,10 +58,10 @@ ALTERNATIVES = (
         formulas((y_norm * V_MAX, clipped(y_norm, V_MAX)), (x_norm * OMEGA_MAX, clipped(x_norm, OMEGA_MAX)))),
     alternative("S59", "SIGNED", "A stick pulled back always means backwards.", CHART,
         formula(may_move, TRUE),
-        guard("Normale_marcia", ROTATION, lambda _: commanded)),
+        guards("Normale_marcia", ROTATION, lambda _: commanded)),
     alternative("S59", "FORWARD-ONLY", "A stick pulled back never moves the rover.", CHART,
         formula(may_move, v_user > 0),
-        guard("Normale_marcia", ROTATION, lambda _: commanded)),
+        guards("Normale_marcia", ROTATION, lambda _: commanded)),
     alternative("S60", "ASSUME-NAMES", "The name of a command says the turn, at the user's speed.", CHART,
         *(references(state, v_user, turn) for state, turn in NAMED_TURNS.items())),
     alternative("S60", "UNDEFINED", "Commands other than NORMAL have no stated effect.", CHART,
@@ -69,9 +69,9 @@ ALTERNATIVES = (
     alternative("S63", "UNCONDITIONAL", "CMD_ESTOP stops the rover whatever it does.", CHART,
         formula(stop_commanded, cmd == "CMD_ESTOP")),
     alternative("S61", "COLLISION-ONLY", "A critical safety state is no emergency stop.", CHART,
-        guard(RUNNING, STOP, inside(critical, FALSE))),
+        guards(RUNNING, STOP, inside(critical, FALSE))),
     alternative("S62", "FOLLOW", "The stop ends with its causes.", CHART,
-        guard(STOPPED, RUNNING, inside(estop_recover_enabled, cmd != "CMD_ESTOP"))),
+        guards(STOPPED, RUNNING, inside(estop_recover_enabled, cmd != "CMD_ESTOP"))),
     alternative("S62", "OPERATOR", "The operator ends the stop, once the rover is at rest.", CHART,
-        guard(STOPPED, RUNNING, lambda ended: ended & operator_release)),
+        guards(STOPPED, RUNNING, lambda ended: ended & operator_release)),
 )  # fmt: skip

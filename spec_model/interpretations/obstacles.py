@@ -16,8 +16,8 @@ from rovercheck.spec_model.lang.change import (
     before,
     doing,
     formulas,
-    guard,
     guard_of,
+    guards,
     in_state,
     inside,
     then,
@@ -78,7 +78,7 @@ NEAR = {1: near_12, 2: near_12 & near_23, 3: near_23}
 
 def suspended_by(old: Expr, condition: Callable[[int], Expr]) -> tuple[Change, ...]:
     """Si looks for no moving obstacle, where it did not for ``old``."""
-    return each(lambda i: guard(f"WS{i}", "J0", inside(old, condition(i))))
+    return each(lambda i: guards(f"WS{i}", "J0", inside(old, condition(i))))
 
 
 def pair_looks(pair: str) -> tuple[Change, ...]:
@@ -86,7 +86,7 @@ def pair_looks(pair: str) -> tuple[Change, ...]:
     far = ~(near_12 if pair in ("12", "21") else near_23)
     window = f"timerSonar{pair}"
     ends = (("Waiting", "Fall1Detected"), ("Fall1Detected", "Fall1Detected"), ("Fall1Detected", "J1"))
-    return tuple(guard(f"{window}.{source}", target, lambda g: _and(g, far)) for source, target in ends)
+    return tuple(guards(f"{window}.{source}", target, lambda g: _and(g, far)) for source, target in ends)
 
 
 def _and(guard: Expr, more: Expr) -> Expr:
@@ -110,7 +110,7 @@ edges = tuple(flag(f"edge{i}", f"S{i} begins to hold a detection in this step (E
 
 def confirmed_by_an_edge(pair: str) -> Change:
     second = int(pair[1]) - 1
-    return guard(f"timerSonar{pair}.Fall1Detected", "J1", inside(objDetected[second], edges[second]))
+    return guards(f"timerSonar{pair}.Fall1Detected", "J1", inside(objDetected[second], edges[second]))
 
 
 def restart(pair: str) -> Change:
@@ -133,7 +133,7 @@ def lost_beyond(i: int) -> tuple[Change, ...]:
     measure = assign(beyond(i), ~(SONARS[i - 1] <= 300))
     return (
         in_state(f"WS{i}", entry=then(measure), during=then(measure)),
-        guard(f"Waiting_S{i}.J0", "J3", lambda lost: lost & beyond(i)),
+        guards(f"Waiting_S{i}.J0", "J3", lambda lost: lost & beyond(i)),
     )
 
 
@@ -230,11 +230,11 @@ queue = (
 
 ALTERNATIVES: tuple[Alternative, ...] = (
     alternative("E08", "BOUNDED", "A deviation ends after 10 s.", CHART,
-        *(guard(turn, "Waiting", lambda over: over | after(10 * sec)) for turn in ("MoveToS1", "MoveToS3"))),
+        *(guards(turn, "Waiting", lambda over: over | after(10 * sec)) for turn in ("MoveToS1", "MoveToS3"))),
     alternative("E10", "LATCH-NEUTRAL", "The stop ends with the stick at rest.", CHART,
-        guard(MOVING_AGAIN, STOPPING, lambda far: far & (bx_norm == 0) & (ay_norm == 0))),
+        guards(MOVING_AGAIN, STOPPING, lambda far: far & (bx_norm == 0) & (ay_norm == 0))),
     alternative("E10", "LATCH-STANDSTILL", "The stop ends at rest.", CHART,
-        guard(MOVING_AGAIN, STOPPING, lambda far: far & wheels_below_2_5)),
+        guards(MOVING_AGAIN, STOPPING, lambda far: far & wheels_below_2_5)),
     alternative("E14", "INCL", "A window confirmed at its end counts.", CHART,
         *(partial(swap, name=f"timerSonar{pair}.Fall1Detected") for pair in PAIRS)),
     alternative("E15", "EDGE", "The second sonar must begin to detect.", CHART,
@@ -259,7 +259,7 @@ ALTERNATIVES: tuple[Alternative, ...] = (
     alternative("E18", "RESET", "A stop clears the detections; windows that are open run on.", CHART,
         *each(forget_during_a_stop)),
     alternative("E18", "CONTINUE", "The detection goes on during a stop.", CHART,
-        *each(lambda i: guard(f"WS{i}", "J0", lambda _: TRUE))),
+        *each(lambda i: guards(f"WS{i}", "J0", lambda _: TRUE))),
     alternative("E01", "GAP-STOP", "The rover stops up to 100 cm.", CHART,
         limits((lambda d: d <= 70, lambda d: d <= 100))),
     alternative("E01", "GAP-MOVING", "Moving obstacles are looked for from 70 cm on.", CHART,
@@ -277,7 +277,7 @@ ALTERNATIVES: tuple[Alternative, ...] = (
     alternative("E31", "AVOID-BY-PAIR", "The side to which the object goes is remembered.", CHART,
         *remember_left),
     alternative("E05", "LITERAL-45", "Toward a sonar at 0 degrees there is nothing to turn.", CHART,
-        guard("MoveToS2", "Waiting", inside(after(0.5 * sec), TRUE))),
+        guards("MoveToS2", "Waiting", inside(after(0.5 * sec), TRUE))),
     alternative("E19", "PREEMPT", "A later signal replaces the deviation.", CHART, *another_signal(preempt)),
     alternative("E19", "QUEUE", "A signal during a deviation waits.", CHART, *queue),
     alternative("E20", "RIGHT-FIRST", "Of two signals in a step the right one counts.", CHART,

@@ -16,7 +16,7 @@ from rovercheck.spec_model.board1.temperature import (
 )
 from rovercheck.spec_model.interpretations import Change, alternative
 from rovercheck.spec_model.lang.action import Action, If, assign, when
-from rovercheck.spec_model.lang.change import formula, formulas, guard, inside, without
+from rovercheck.spec_model.lang.change import formula, formulas, guards, inside, without
 from rovercheck.spec_model.lang.chart import Block, Chart, to
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.edit import begin, constant, timer
@@ -84,24 +84,24 @@ GROWTH = named("assumed_T", T + (temp_age - 500) * RISE)
 
 def lasts(span: int, samples: int) -> Change:
     """Another way to count 4 s: in ticks since the first sample, and in samples."""
-    return guard("decide", "Temp_CRIT", lambda g: constant(ENOUGH, samples)(timer(span * ticks)(g)))
+    return guards("decide", "Temp_CRIT", lambda g: constant(ENOUGH, samples)(timer(span * ticks)(g)))
 
 
 ALTERNATIVES = (
     alternative("S65", "DEFAULT-OK", "The first step is OK, whatever is measured.", MONITOR,
         lambda chart: begin(chart, [to("Temp_OK")])),
     alternative("S01", "HOLD", "The status is kept until the 4 s are over.", MONITOR,
-        guard("decide", "Temp_DEG", lambda _: degraded_range)),
+        guards("decide", "Temp_DEG", lambda _: degraded_range)),
     alternative("S01", "OK-DEFAULT", "The status is OK until the 4 s are over.", MONITOR,
-        guard("decide", "Temp_DEG", lambda _: degraded_range),
-        guard("decide", "Temp_OK", lambda _: ok_range | critical_range)),
+        guards("decide", "Temp_DEG", lambda _: degraded_range),
+        guards("decide", "Temp_OK", lambda _: ok_range | critical_range)),
     alternative("S01", "CRIT-AT-ONCE", "The critical range needs no 4 s.", MONITOR,
-        guard("decide", "Temp_DEG", lambda _: degraded_range),
-        guard("decide", "Temp_CRIT", inside(held_critical, critical_range))),
+        guards("decide", "Temp_DEG", lambda _: degraded_range),
+        guards("decide", "Temp_CRIT", inside(held_critical, critical_range))),
     alternative("S10", "SUSTAINED", "The estimate needs the 4 s too.", MONITOR,
-        guard("decide", "Temp_CRIT", inside(stale_above_65, lambda stale: held(stale, for_=4 * sec)))),
+        guards("decide", "Temp_CRIT", inside(stale_above_65, lambda stale: held(stale, for_=4 * sec)))),
     alternative("S05", "SYMMETRIC", "Critical is left after 4 s without a cause.", MONITOR,
-        guard("Temp_CRIT", "decide", lambda _: held(~critical_range & ~stale_above_65, for_=4 * sec))),
+        guards("Temp_CRIT", "decide", lambda _: held(~critical_range & ~stale_above_65, for_=4 * sec))),
     alternative("S05", "LATCH", "Critical is never left.", MONITOR, without("Temp_CRIT", "decide")),
     alternative("S07", "RATE", "The limit is one of the slope, and 1 °C/s is never above 65 °C/s.", MONITOR,
         formula(stale_above_65, FALSE)),
@@ -114,9 +114,9 @@ ALTERNATIVES = (
     alternative("S14", "GE", "The estimate counts from the limit on.", MONITOR,
         formulas(*((assumed_T > limit, assumed_T >= limit) for _, limit in LIMITS))),
     alternative("S13", "TABLE1-CRIT", "Absence of readings is critical.", MONITOR,
-        guard("decide", "Temp_CRIT", lambda g: g | absent)),
+        guards("decide", "Temp_CRIT", lambda g: g | absent)),
     alternative("S13", "TABLE1-DEG", "Absence of readings is degraded.", MONITOR,
-        guard("decide", "Temp_DEG", lambda g: g | absent)),
+        guards("decide", "Temp_DEG", lambda g: g | absent)),
     alternative("S04", "CUMULATIVE", "The 4 s add up, whatever comes between.", MONITOR, count_beside),
     alternative("S03", "PER-SIDE", "The 4 s are those of one side.", STEPS, count_each_side),
     alternative("S03", "PER-SIDE", "The 4 s are those of one side.", MONITOR,

@@ -1,6 +1,6 @@
 """Changes of a chart or block that say what they replace, and raise ``ModelError`` where that is gone.
 
-Each is made with what it changes, then applied to the part: ``guard("decide", "Temp_CRIT", wider)(chart)``.
+Each is made with what it changes, then applied to the part: ``guards("decide", "Temp_CRIT", wider)(chart)``.
 A transition is known by its ends, an assignment by its variable and a formula by itself, so that changes can
 follow each other: none counts the transitions that another one may have added.
 """
@@ -136,7 +136,7 @@ def _as_before(apply: Apply, args: tuple[Expr, ...]) -> tuple[Expr, ...]:
     return args
 
 
-def guard(source: str, target: str, change: Rule) -> Callable[[Chart], Chart]:
+def guards(source: str, target: str, change: Rule) -> Callable[[Chart], Chart]:
     """Another guard on every transition from a state or junction to the target; one without has TRUE.
 
     ``ENTERED`` is the source of the default transitions of the outermost level.

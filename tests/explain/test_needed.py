@@ -252,9 +252,9 @@ def test_a_set_that_does_not_force_the_end_is_noticed() -> None:
 
 
 def test_a_solver_that_takes_anything_for_forced_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from rovercheck.checker.explain.unrolled_run import Answer
+    from rovercheck.checker.explain.unrolled_run import ForcedEnd
 
-    monkeypatch.setattr(Unrolled, "asked", lambda *_: Answer(True))
+    monkeypatch.setattr(Unrolled, "asked", lambda *_: ForcedEnd(True))
     monkeypatch.setattr(Unrolled, "avoids", lambda _, changes: iter([False] * len(changes)))
     system, run = counter(3, top=3), held(3)
     with pytest.raises(ReplayError, match="does not force it"):

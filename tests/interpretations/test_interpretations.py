@@ -12,7 +12,7 @@ from rovercheck.spec_model.abstraction.board2 import BOARD2
 from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.board1.temperature import T, monitor_temperature
 from rovercheck.spec_model.interpretations import Alternative, alternative, alternatives, name_of, woven
-from rovercheck.spec_model.lang.change import formula, guard
+from rovercheck.spec_model.lang.change import formula, guards
 from rovercheck.spec_model.lang.chart import Component, Enabled, parts
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import FALSE, TRUE
@@ -95,7 +95,7 @@ def test_an_alternative_that_does_not_fit_says_where_it_is_written() -> None:
 
 
 def test_an_alternative_that_changes_nothing_is_refused() -> None:
-    kept = guard("decide", "Temp_OK", lambda g: g)
+    kept = guards("decide", "Temp_OK", lambda g: g)
     same = alternative("S14", "GE", "As it is.", "Monitor_temperature", kept)
     with pytest.raises(ModelError, match=r"test_interpretations\.py:\d+: S14=GE changes nothing in Monitor_"):
         same.applied(monitor_temperature)

@@ -12,8 +12,8 @@ from rovercheck.spec_model.lang.change import (
     doing,
     formula,
     formula_of,
-    guard,
     guard_of,
+    guards,
     in_state,
     inside,
     lasting,
@@ -167,13 +167,13 @@ CHART = Chart(
 def test_changes_meet_what_they_name() -> None:
     assert str(guard_of(formula(b, c)(CHART), "T", "S")) == "duration(c) > 2 s"
     assert str(guard_of(formula("late", a)(CHART), "S", "T")) == "a"
-    assert str(guard_of(guard("J", "S", inside(x > 3, x > 4))(CHART), "J", "S")) == "x > 4"
-    assert str(guard_of(guard("T", "S", at_once)(CHART), "T", "S")) == "b"
-    both = guard("T", "S", lasting(lambda condition: condition & c))(CHART)
+    assert str(guard_of(guards("J", "S", inside(x > 3, x > 4))(CHART), "J", "S")) == "x > 4"
+    assert str(guard_of(guards("T", "S", at_once)(CHART), "T", "S")) == "b"
+    both = guards("T", "S", lasting(lambda condition: condition & c))(CHART)
     assert str(guard_of(both, "T", "S")) == "duration(b && c) > 2 s"
     assert guard_of(CHART, "S", "J") is TRUE
     assert [t.target for t in without("S", "J")(CHART).states["S",].transitions] == ["T"]
-    assert [str(t.guard) for t in guard(ENTERED, "J", lambda _: a)(CHART).root.default] == ["a", "None"]
+    assert [str(t.guard) for t in guards(ENTERED, "J", lambda _: a)(CHART).root.default] == ["a", "None"]
     assert str(formula_of(CHART, "late").body) == "duration(a && b) > 3 s"
     later = doing("S", "J", then(assign(x, 0)))(CHART)
     assert [*map(str, later.states["S",].transitions[1].do)] == ["send(e, T)", "x := 0"]
@@ -187,12 +187,12 @@ def test_changes_meet_what_they_name() -> None:
     [
         (formula(x > 7, a), "C has no formula `x > 7` any more."),
         (formula("early", a), "C has no formula `early` any more."),
-        (guard("S", "S", lambda g: g), "No transition leads from S to S any more."),
+        (guards("S", "S", lambda g: g), "No transition leads from S to S any more."),
         (without("J", "T"), "No transition leads from J to T any more."),
         (doing("T", "J", then()), "No transition leads from T to J any more."),
-        (guard("J", "S", at_once), "`x > 3` is no duration."),
-        (guard("J", "S", inside(a, b)), "`x > 3` has no formula `a` any more."),
-        (guard("U", "S", lambda g: g), "C has no state 'U'."),
+        (guards("J", "S", at_once), "`x > 3` is no duration."),
+        (guards("J", "S", inside(a, b)), "`x > 3` has no formula `a` any more."),
+        (guards("U", "S", lambda g: g), "C has no state 'U'."),
         (assigned(var("y", integer(0, 1)), lambda v: v), "C does not assign y any more."),
         (lambda chart: formula_of(chart, "early"), "C has no formula `early` any more."),
         (formula(x, const(3) * x * const("0.5")), "is counted in other steps"),
