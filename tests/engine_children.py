@@ -2,13 +2,11 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import ModuleType
 from typing import Any
 
 import pytest
 
 from rovercheck.checker.certify import solver
-from rovercheck.checker.engines import engines
 from rovercheck.checker.engines.localisation import orders
 from rovercheck.checker.engines.simulation import batches
 from rovercheck.checker.process.isolate import ChildStopped, End
@@ -58,7 +56,5 @@ def engines_here() -> Iterator[None]:
         patch.setattr(batches, "EFFORT", 10_000)
         patch.setattr(solver, "messages", inline)
         patch.setattr(orders, "Child", ChildHere)
-        for engine in engines().values():
-            if isinstance(engine, ModuleType) and hasattr(engine, "messages"):
-                patch.setattr(engine, "messages", here)
+        patch.setattr(runner, "messages", here)
         yield
