@@ -21,6 +21,8 @@ from rovercheck.properties.catalogue import catalogue
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER
 
+pytestmark = pytest.mark.usefixtures("no_child")
+
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:

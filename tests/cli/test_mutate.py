@@ -1,7 +1,7 @@
 """``rovercheck mutate``: what is said of survivors, counts, exit codes, JSON, and mistakes."""
 
 import json
-from collections.abc import Generator, Iterator
+from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
@@ -15,20 +15,11 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.mutate import plan
 from rovercheck.checker.mutate.workers import MutantJudged, fates
 from tests.cli.test_widths import at_terminal, too_long
-from tests.engine_children import commands_here
 from tests.mutate import lamp
 
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "mutate-1.json").read_text("utf-8"))
 MODEL = Path(lamp.__file__)
 LAMP = ["mutate", "--model", str(MODEL), "--quiet", "--jobs", "2"]
-
-
-@pytest.fixture
-def no_child() -> Iterator[None]:
-    """Mutants are judged in this process: most of the time of a child goes into its start."""
-    with commands_here():
-        yield
-
 
 WEAK = """
 from rovercheck.properties.forms import always
