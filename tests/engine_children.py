@@ -66,5 +66,6 @@ def commands_here() -> Iterator[None]:
     """Every search of a command, and every mutant that it judges, in this process, one after the other."""
     with engines_here(), pytest.MonkeyPatch.context() as patch:
         patch.setattr(pool, "Child", ChildHere)
+        patch.setattr(isolate, "Child", None)  # what starts one all the same fails
         patch.setattr(isolate, "prepared", lambda *_: nullcontext())
         yield
