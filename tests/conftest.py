@@ -1,5 +1,6 @@
 """Settings of the whole test suite: what processes of it find around them, and which tests come first."""
 
+import gc
 import os
 import signal
 import sys
@@ -27,6 +28,14 @@ for name in ("SIGINT", "SIGHUP"):  # a job in the background ignores them, and s
         signal.signal(number, signal.default_int_handler if name == "SIGINT" else signal.SIG_DFL)
 
 register()
+
+gc.disable()  # while tests are collected: what that makes stays until the end
+
+
+def pytest_collection_finish() -> None:
+    """Collect garbage again, but never look through what is there by now."""
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

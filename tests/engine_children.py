@@ -1,16 +1,15 @@
-"""Engines without child processes: cut off as a test wants it, or at work in the process of the test."""
+"""Engines and commands without child processes: cut off as a test wants it, or at work in its own process."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from types import ModuleType
+from contextlib import contextmanager, nullcontext
 from typing import Any
 
 import pytest
 
 from rovercheck.checker.certify import solver
-from rovercheck.checker.engines import engines
 from rovercheck.checker.engines.localisation import orders
 from rovercheck.checker.engines.simulation import batches
+from rovercheck.checker.process import isolate, pool
 from rovercheck.checker.process.isolate import ChildStopped, End
 from rovercheck.checker.search import runner
 from tests.certifying import inline
@@ -58,7 +57,15 @@ def engines_here() -> Iterator[None]:
         patch.setattr(batches, "EFFORT", 10_000)
         patch.setattr(solver, "messages", inline)
         patch.setattr(orders, "Child", ChildHere)
-        for engine in engines().values():
-            if isinstance(engine, ModuleType) and hasattr(engine, "messages"):
-                patch.setattr(engine, "messages", here)
+        patch.setattr(runner, "messages", here)
+        yield
+
+
+@contextmanager
+def commands_here() -> Iterator[None]:
+    """Every search of a command, and every mutant that it judges, in this process, one after the other."""
+    with engines_here(), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pool, "Child", ChildHere)
+        patch.setattr(isolate, "Child", None)  # what starts one all the same fails
+        patch.setattr(isolate, "prepared", lambda *_: nullcontext())
         yield

@@ -98,6 +98,11 @@ A04 = Assumption(
 )
 FRESH = Assumption("FRESH", "Every sensor delivers a valid reading in every step.", all_of(*SENSORS))
 
+RECORDS = (
+    arrival_window("rx", b1.rx_update),
+    arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
+)
+
 
 def in_turn(
     board1: Sequence[Component], board2: Sequence[Component],
@@ -115,8 +120,7 @@ def in_turn(
         env1.battery_readings,
         reception,
         env1.heartbeat_clock,
-        arrival_window("rx", b1.rx_update),
-        arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
+        *RECORDS,
         env1.check_stop,
         Enabled(runs_1, *board1, name="Board 1"),
         env2.joystick,

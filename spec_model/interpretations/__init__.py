@@ -125,7 +125,8 @@ def _woven(
         if isinstance(component, Enabled):
             inside = _woven(component.components, chosen, around | _reads(component))
             component = Enabled(component.by, *inside, name=component.name, place=component.place)
-        own = {one.interpretation for one in chosen if one.part == name_of(component)}
+        name = name_of(component)
+        own = {one.interpretation for one in chosen if one.part == name}
         if own and own.isdisjoint(around | _reads(component)):
             made += _part(component, chosen)
         else:  # as drawn whatever is read, or woven already

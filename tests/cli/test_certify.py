@@ -21,6 +21,8 @@ from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_sear
 from tests.certifying import SOLVER
 from tests.schemas import published
 
+pytestmark = pytest.mark.usefixtures("no_child")
+
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:

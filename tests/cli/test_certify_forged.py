@@ -25,6 +25,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return two_searches(tmp_path_factory.mktemp("certificates"))
 
 
+@pytest.mark.usefixtures("no_child")
 def test_a_corrupted_invariant_is_rejected(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -35,6 +36,7 @@ def test_a_corrupted_invariant_is_rejected(
     assert f"✗ {COUNTERS[0]}" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("no_child")
 def test_a_certificate_of_another_model_is_rejected(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -51,11 +53,13 @@ def test_swapped_files_are_rejected(made: Path, tmp_path: Path) -> None:
     assert certify([forged], SOLVER, None, False) is Exit.INCONCLUSIVE
 
 
+@pytest.mark.usefixtures("no_child")
 def test_without_its_certificate_a_property_is_undecided(made: Path, tmp_path: Path) -> None:
     forged = changed(counters(made), tmp_path, lambda document: document["certificates"].clear())
     assert certify([forged], SOLVER, None, False) is Exit.INCONCLUSIVE
 
 
+@pytest.mark.usefixtures("no_child")
 def test_an_origin_that_does_not_exist_is_rejected(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -72,6 +76,7 @@ def test_an_origin_that_does_not_exist_is_rejected(
         assert "rejected  origin" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("no_child")
 def test_what_was_proved_is_said(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A verdict about other interpretations is not one about the charts as specified."""
     path = written(tmp_path, *WHEEL, interpretations={"S27": "OK"})
@@ -90,6 +95,7 @@ def test_properties_with_and_without_a_bound_are_never_searched_together(tmp_pat
         assert [type(one.outcome) for one in told] == [Rejected, Rejected]
 
 
+@pytest.mark.usefixtures("no_child")
 def test_a_file_cannot_write_lines_of_its_own(
     made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -149,6 +155,7 @@ def test_a_folder_for_obligations_that_cannot_be_written(
     assert "counters-PSY-21a-1.1-initiation.smt2: Is a directory" in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("no_child")
 def test_files_of_one_name_keep_their_obligations_apart(made: Path, tmp_path: Path) -> None:
     other = tmp_path / "[odd] név;$(x)"
     other.mkdir()

@@ -9,6 +9,8 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from tests.cli.test_report import EMPTY
 
+pytestmark = pytest.mark.usefixtures("no_child")
+
 IDLE = """
 IDLE = always("IDLE", "It is lit or not.", that=lamp | ~lamp, covers=["R"], on="hall")
 """

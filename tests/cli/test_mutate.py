@@ -65,6 +65,7 @@ Q = always("Q", "It is echoed.", that=(echo & go) | (~echo & ~go), covers=["R"],
 """
 
 
+@pytest.mark.usefixtures("no_child")
 @pytest.mark.parametrize(("extra", "fates"), [((), {"killed"}), (("--alone",), {"noticed", "survivor"})])
 def test_what_only_mends_a_finding_at_home_may_be_killed_elsewhere(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], extra: tuple[str, ...], fates: set[str]
@@ -132,6 +133,7 @@ Q = always("Q", "It is echoed.", that=~echo | (code == 47), covers=["R"], on=ope
 """
 
 
+@pytest.mark.usefixtures("no_child")
 @pytest.mark.parametrize(("text", "on"), [(OPENS, "locked"), ("out | ~out", "opened")])
 def test_what_a_search_has_killed_once_needs_none_again(
     text: str, on: str, tmp_path: Path, capsys: pytest.CaptureFixture[str],
@@ -157,6 +159,7 @@ def test_what_a_search_has_killed_once_needs_none_again(
     assert json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8")) == kept
 
 
+@pytest.mark.usefixtures("no_child")
 def test_runs_of_mutants_that_are_gone_are_dropped(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -172,6 +175,7 @@ def test_runs_of_mutants_that_are_gone_are_dropped(
     assert "Lock/block/gone" not in kept and "Door/block/dead" in kept
 
 
+@pytest.mark.usefixtures("no_child")
 def test_what_survives_alone_keeps_its_run_of_another_system(tmp_path: Path) -> None:
     """It was dropped, though properties of that system were not asked."""
     file = tmp_path / "lock_model.py"
@@ -196,6 +200,7 @@ def test_a_file_of_mutants_that_holds_something_else_stays_as_it_is(
     assert (tmp_path / "mutants.json").read_text(encoding="utf-8") == "[]"
 
 
+@pytest.mark.usefixtures("no_child")
 def test_what_the_original_breaks_as_well_kills_nothing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -219,6 +224,7 @@ def test_the_document_holds_every_mutant(capsys: pytest.CaptureFixture[str]) -> 
     assert len(document["mutants"]) == sum(document["counts"].values()) == 12
 
 
+@pytest.mark.usefixtures("no_child")
 def test_a_seed_draws_the_same_mutants_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = [*model(tmp_path, "~out | go"), "--sample", "2", "--json"]
     drawn = []
@@ -278,6 +284,7 @@ def test_survivors_are_readable_at_any_width(columns: int, tmp_path: Path) -> No
     assert "No property requires" in seen
 
 
+@pytest.mark.usefixtures("no_child")
 def test_one_part_alone_is_made_faulty(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*LAMP, "--part", "Alarm", "--json"]) in (Exit.FAILED, Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
     ids = [one["id"] for one in json.loads(capsys.readouterr().out)["mutants"]]
@@ -289,6 +296,7 @@ def test_a_part_that_is_not_there_is_told_with_its_neighbours(capsys: pytest.Cap
     assert "There is no chart or block 'Alrm'. Did you mean 'Alarm'?" in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("no_child")
 def test_each_place_is_shown_with_what_constrains_it(capsys: pytest.CaptureFixture[str]) -> None:
     run([*LAMP, "--by-place"])
     rows = [line.split() for line in capsys.readouterr().out.split("\n\n")[0].splitlines()]

@@ -15,6 +15,8 @@ from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Property
 from tests.cli.test_report import EMPTY
 
+pytestmark = pytest.mark.usefixtures("no_child")
+
 
 @pytest.fixture
 def hall(tmp_path: Path) -> Path:

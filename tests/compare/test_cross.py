@@ -45,7 +45,8 @@ def running(board: str, target: str) -> Implementation:
     return python.start(target, boards()[board], isolated=False)
 
 
-@pytest.mark.parametrize("board", ["board1", "board2"])
+@pytest.mark.long
+@pytest.mark.parametrize("board", ["board2", "board1"])
 def test_our_supervisor_conforms(board: str) -> None:
     assert quick_check(board, running(board, OURS[board]), examples=EXAMPLES[board]) is None
     suite = recorded_suite(board, "ci", EXAMPLES[board])

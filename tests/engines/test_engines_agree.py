@@ -13,6 +13,7 @@ from rovercheck.checker.certify.check import check
 from rovercheck.checker.certify.outcome import Accepted
 from rovercheck.checker.encode.native import OutsideDomain
 from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.process import isolate
 from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import naive
@@ -20,7 +21,7 @@ from tests.certifying import SOLVER
 from tests.profiles import examples
 from tests.strategies_timed import timed_systems
 from tests.strategies_ts import goals, transition_systems
-from tests.toys import GOAL, overflowing
+from tests.toys import GOAL, counter, overflowing, relay
 
 COMPLETE = ("bdd", "explicit", "pdr")
 """Engines that leave nothing open."""
@@ -32,6 +33,13 @@ pytestmark = pytest.mark.usefixtures("engines_in_this_process")
 def test_every_engine_is_compared() -> None:
     """And one more in the folder is compared, too."""
     assert set(engines()) >= {"bdd", "bmc", "explicit", "kinduction", "localisation", "pdr", "simulation"}
+
+
+def test_no_engine_starts_a_child_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Most of them did, and the tests with random systems spent most of their time on it."""
+    monkeypatch.setattr(isolate, "Child", None)
+    agree(relay())
+    agree(counter(3, top=5))
 
 
 @pytest.mark.long

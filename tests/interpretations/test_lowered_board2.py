@@ -1,5 +1,6 @@
 """Every system that an interpretation of Board 2 (E01 to E32) changes is checked under each choice."""
 
+from collections.abc import Mapping
 from functools import cache
 
 import pytest
@@ -18,12 +19,18 @@ ALSO = ("obstacles_free", "obstacles_heading")
 
 
 @cache
+def _open() -> Mapping[str, System]:
+    """Every system with its interpretations open, by name, made once for all choices."""
+    return {system.name: system for system in as_written()}
+
+
+@cache
 def _reading(id: str) -> tuple[str, ...]:
     """The systems that change with an interpretation.
 
     Of the over-approximations of a system, and of its scenes, which hold the same charts, one is enough.
     """
-    names = [s.name for s in as_written() if not (s.concrete or s.under) or s.name in ALSO]
+    names = [s.name for s in _open().values() if not (s.concrete or s.under) or s.name in ALSO]
     once = [name for name in names if not name.startswith("rover_")]
     return tuple(name for name in once if id in interpretations_of(name))
 
@@ -31,14 +38,14 @@ def _reading(id: str) -> tuple[str, ...]:
 @cache
 def _smallest(id: str) -> str:
     """The system with the fewest variables among those that change with an interpretation."""
-    interpretation = [s for s in as_written() if id in interpretations_of(s.name)]
+    interpretation = [s for s in _open().values() if id in interpretations_of(s.name)]
     return min(interpretation, key=lambda s: len(s.written) + len(s.inputs)).name
 
 
 @cache
 def _system(id: str, choice: str, name: str) -> System:
-    """The system under a choice, made without all the others."""
-    return fixed({id: choice}).system(next(s for s in as_written() if s.name == name))
+    """The system under a choice."""
+    return fixed({id: choice}).system(_open()[name])
 
 
 CASES = [

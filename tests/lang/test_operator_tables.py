@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Mapping
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -18,6 +19,7 @@ WITHOUT = {
 """What speaks of division, which every target writes in a way of its own, without a table."""
 
 
+@cache
 def targets() -> dict[str, ast.Module]:
     """The modules of the four packages, by name."""
     files = [f for p in ("spec_model", "properties", "checker") for f in sorted((ROOT / p).rglob("*.py"))]
@@ -34,16 +36,13 @@ def divides(module: ast.Module) -> bool:
     return any(isinstance(n, ast.Attribute) and ast.unparse(n) == "Op.DIV" for n in ast.walk(module))
 
 
-TARGETS = targets()
-
-
 def lacking(tables: Mapping[str, Mapping[Op, object]]) -> dict[str, list[Op]]:
     """The operators without a row, by the name of the table."""
     return {name: gaps for name, rows in tables.items() if (gaps := [op for op in Op if op not in rows])}
 
 
 def test_every_table_has_a_row_for_every_operator() -> None:
-    tables = {name: getattr(import_module(name), NAME) for name, m in TARGETS.items() if has_table(m)}
+    tables = {name: getattr(import_module(name), NAME) for name, m in targets().items() if has_table(m)}
     assert lacking({**tables, "tests.encode.test_bitvector.CASES": CASES}) == {}
 
 
@@ -54,4 +53,4 @@ def test_a_table_that_lacks_a_row_is_named() -> None:
 
 
 def test_what_speaks_of_operators_has_a_table() -> None:
-    assert {name for name, m in TARGETS.items() if divides(m) and not has_table(m)} == WITHOUT.keys()
+    assert {name for name, m in targets().items() if divides(m) and not has_table(m)} == WITHOUT.keys()

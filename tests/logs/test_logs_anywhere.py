@@ -18,7 +18,7 @@ from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.abstraction.stamps import NOW
 from tests.logs.recorded import copied, long_log
-from tests.profiles import examples
+from tests.profiles import examples, full
 
 SCENARIOS = Path(__file__).parents[2] / "examples" / "scenarios"
 BOARDS = ("board1", "board2")
@@ -78,7 +78,8 @@ def test_a_good_log_deviates_nowhere_however_it_is_cut(
 def test_a_good_log_deviates_nowhere_whichever_column_is_absent(
     board: str, column: str, tmp_path: Path, obstacle: dict[str, list[Text]]
 ) -> None:
-    for start in (0, 230):
+    """At the beginning or in the middle, in the full suite at both."""
+    for start in (0, 230) if full() else (Random(column).choice((0, 230)),):
         found = judged(tmp_path, obstacle[board][start : start + 10], board, (column,))
         assert column == NOW or not found.deviates
 
@@ -89,7 +90,7 @@ STRANGE = ("", "0", "1", "3", "7", "-1", "0.5", "255", "1e17", "-1e30", "1e309",
 @pytest.mark.parametrize(("board", "output"), OUTPUTS)
 def test_an_output_may_be_anything_at_any_tick(board: str, output: str, tmp_path: Path) -> None:
     random = Random(output)
-    for start, count in ((0, 5), (random.randrange(1, 1800), 1)):
+    for start, count in ((0, 5 if full() else 2), (random.randrange(1, 1800), 1)):
         for _ in range(count):
             rows = [dict(row) for row in recorded(board)[start : start + 12]]
             random.choice(rows)[output] = random.choice(STRANGE)
