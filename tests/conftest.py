@@ -7,6 +7,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -70,3 +71,19 @@ def engines_in_this_process() -> Iterator[None]:
 
     with engines_here():
         yield
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """One headless Chromium for all tests: a process can drive no second one meanwhile."""
+    from playwright.sync_api import sync_playwright
+
+    from tests.chromium import FLAGS, chromium
+
+    program = chromium()
+    if program is None:
+        pytest.skip("No Chromium is installed: apt-get install chromium, or name one in $CHROMIUM.")
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
+        yield started
+        started.close()

@@ -1,36 +1,15 @@
 """A headless Chromium for the tests of pages: console errors and network requests fail the test."""
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 LOCAL = ("file:", "data:", "blob:", "about:")
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-FLAGS = ("--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update")
 
 Show = Callable[[str], Page]
 """Opens a document from a file, as a reader would, and returns the page."""
-
-
-def chromium() -> str | None:
-    """The browser to use, if any is installed: ``$CHROMIUM``, or the first of the usual names."""
-    return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, NAMES)), None)
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """One browser for all tests."""
-    program = chromium()
-    if program is None:
-        pytest.skip("No Chromium is installed: apt-get install chromium, or name one in $CHROMIUM.")
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
-        yield started
-        started.close()
 
 
 @pytest.fixture

@@ -1,5 +1,5 @@
 """The site in the browser of the tests of pages."""
 
-from tests.browser.conftest import browser, page
+from tests.browser.conftest import page
 
-__all__ = ["browser", "page"]
+__all__ = ["page"]
