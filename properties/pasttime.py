@@ -1,7 +1,7 @@
 """Past-time logic: what a form of properties says of a tick, from the formulas in it and the ticks so far.
 
 It is stated once, and read twice: as monitors for engines (``properties.reduce``) and on the rows of a log
-(``checker.logs.judge``).
+(``checker.logs.form_monitors``).
 """
 
 from abc import ABC, abstractmethod

@@ -1,5 +1,6 @@
 """Assignments that provably stay in their domain, and checks for those that might not."""
 
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 
 from rovercheck.spec_model.lang.action import Assign, If
@@ -13,6 +14,7 @@ from rovercheck.spec_model.lang.walk import plain
 _FEW = 4096
 
 Possible = range | frozenset[int]
+Ends = tuple[int, int]
 
 
 def possible(expr: Expr) -> Possible:
@@ -22,7 +24,7 @@ def possible(expr: Expr) -> Possible:
             return frozenset({value})
         case Var(_, domain):
             return frozenset(domain.values) if len(domain) <= _FEW else range(domain.low, domain.high + 1)
-        case Apply(op, _, _) if op in COMPARISONS or op in (Op.NOT, Op.AND, Op.OR, Op.BIT):
+        case Apply(op, _, _) if OPERATIONS[op] is _truth:
             return frozenset({0, 1})
         case Apply(Op.ITE, (_, then, otherwise), _):
             return _union(possible(then), possible(otherwise))
@@ -40,7 +42,7 @@ def _union(a: Possible, b: Possible) -> Possible:
     return range(min(ends), max(ends) + 1)
 
 
-def _ends(values: Possible) -> tuple[int, int]:
+def _ends(values: Possible) -> Ends:
     """The least and the greatest; Python would look for them through all of a range."""
     return (values[0], values[-1]) if isinstance(values, range) else (min(values), max(values))
 
@@ -54,14 +56,44 @@ def _image(op: Op, args: list[Possible]) -> Possible:
     return _interval(op, [_ends(a) for a in args])
 
 
-def _interval(op: Op, ends: list[tuple[int, int]]) -> range:
-    """The hull of the image; each of these operators takes its extremes at ends of its arguments."""
-    if op is Op.MOD:
-        return range(ends[1][1])
+def _interval(op: Op, ends: Sequence[Ends]) -> range:
+    """The hull of the image, or a wider one."""
+    low, high = OPERATIONS[op](op, ends)
+    return range(low, high + 1)
+
+
+def _truth(op: Op, ends: Sequence[Ends]) -> Ends:
+    return 0, 1
+
+
+def _at_ends(op: Op, ends: Sequence[Ends]) -> Ends:
+    """Of an operator that takes its extremes where each argument is at one of its ends."""
     corners = [operate(op, *corner) for corner in product(*ends)]
-    if op is Op.ABS and ends[0][0] <= 0 <= ends[0][1]:
-        corners.append(0)
-    return range(min(corners), max(corners) + 1)
+    return min(corners), max(corners)
+
+
+def _absolute(op: Op, ends: Sequence[Ends]) -> Ends:
+    low, high = _at_ends(op, ends)
+    return (0 if ends[0][0] <= 0 <= ends[0][1] else low), high
+
+
+def _remainder(op: Op, ends: Sequence[Ends]) -> Ends:
+    return 0, ends[1][1] - 1
+
+
+def _either(op: Op, ends: Sequence[Ends]) -> Ends:
+    (_, then, otherwise) = ends
+    return min(then[0], otherwise[0]), max(then[1], otherwise[1])
+
+
+OPERATIONS: Mapping[Op, Callable[[Op, Sequence[Ends]], Ends]] = {
+    **dict.fromkeys((*COMPARISONS, Op.NOT, Op.AND, Op.OR, Op.BIT), _truth),
+    **dict.fromkeys((Op.ADD, Op.SUB, Op.NEG, Op.MUL, Op.SCALE, Op.DIV, Op.MIN, Op.MAX), _at_ends),
+    Op.ABS: _absolute,
+    Op.MOD: _remainder,
+    Op.ITE: _either,
+}
+"""The least and the greatest result of each operator, or less and more, from those of its arguments."""
 
 
 def fits(expr: Expr, domain: Domain) -> bool:
