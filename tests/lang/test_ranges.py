@@ -38,6 +38,6 @@ def test_results_lie_within_the_interval(op: Op, data: DataObject) -> None:
 
 @given(st.integers(1, 9))
 def test_an_interval_that_is_too_small_would_be_seen(below: int) -> None:
-    """The corners of a square do not tell of a product with itself, which no table can say of ABS."""
+    """ABS with the row of an operator that takes its extremes at the ends: its least value lies outside."""
     low, _ = OPERATIONS[Op.NEG](Op.ABS, [(-below, below)])
     assert low > operate(Op.ABS, 0)
