@@ -33,17 +33,17 @@ _OURS = re.compile(r"[0-9a-f]{64}-[a-z]+-[a-z]+\.(o|running)|rovercheck-\w+\.par
 """The names of files that may be removed: the folder may be one that the user keeps other things in."""
 
 
-def read(name: str) -> bytes | None:
+def read(name: str, *, code: bool = True) -> bytes | None:
     """What this user's rovercheck wrote under a name; None if that is missing, changed or cannot be read.
 
-    Where code is to be made anew (see ``telling.listening``), and where a process has crashed over it, the
-    entry is removed.
+    With ``code``, it is about to be run: where code is to be made anew (see ``listeners.listening``), and
+    where a process has crashed over it, the entry is removed.
     """
     try:
         folder = usable(chosen(), make=False)
         key = secret(folder, make=False)
         path = folder / f"{name}{ENDING}"
-        if anew() or run_marks.crashed(path):
+        if code and (anew() or run_marks.crashed(path)):
             remove(name)
             return None
         contents = opened(name, carefully(path, MOST_BYTES)[1], key)
@@ -55,9 +55,9 @@ def read(name: str) -> bytes | None:
     if contents is not None:
         with suppress(OSError):  # where files are read only, too, they may be used
             os.utime(path)  # used now: the last to be removed
-        if has_listener():
+        if code and has_listener():
             notify(CachedCodeUse(name))
-        else:
+        elif code:
             run_marks.mark(path)
     return contents
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from rovercheck.checker.render.durations import duration
 from rovercheck.checker.render.limits import bounds, timer
 from rovercheck.checker.results.trace import TakenTransition, Tick, Trace, counted_ticks
+from rovercheck.checker.results.verdict import StoredRun
 from rovercheck.spec_model.lang.domain import Enum, Num
 from rovercheck.spec_model.lang.expr import Expr, Named
 from rovercheck.spec_model.lang.label import text
@@ -265,7 +266,7 @@ def heading(trace: Trace) -> str:
     return f"{trace.system.name}: {ticks}, {duration(trace.ms(count))}{repeating(trace)}"
 
 
-def repeating(trace: Trace) -> str:
+def repeating(trace: Trace | StoredRun) -> str:
     """Which ticks at the end repeat for ever, after a comma; empty if none does."""
     if trace.loop is None:
         return ""

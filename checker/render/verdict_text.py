@@ -2,7 +2,15 @@
 
 from rovercheck.checker.render.story import repeating
 from rovercheck.checker.results.trace import Trace, counted_ticks
-from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Violated
+from rovercheck.checker.results.verdict import (
+    Exhausted,
+    Inductive,
+    Proved,
+    StoredInvariant,
+    StoredRun,
+    Unknown,
+    Violated,
+)
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Reachable
@@ -14,13 +22,13 @@ def in_short(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth):
             return f"after {counted_ticks(depth)} of {system}: {reason}"
-        case Proved((Exhausted() | Inductive()) as evidence_, _, claim):
+        case Proved((Exhausted() | Inductive() | StoredInvariant()) as evidence_, _, claim):
             return _joined(f"{evidence_.how} of {system}", claim, result.limited_to)
-        case Violated((Exhausted() | Inductive()) as evidence_):
+        case Violated((Exhausted() | Inductive() | StoredInvariant()) as evidence_):
             return _joined(f"never: {evidence_.how} of {system}", result.limited_to)
-        case Proved(Trace() as trace):
+        case Proved((Trace() | StoredRun()) as trace):
             return f"reached in {ticks(trace)} of {system}"
-        case Violated(Trace() as trace):
+        case Violated((Trace() | StoredRun()) as trace):
             return f"{ticks(trace)} of {system}"
     raise AssertionError(verdict)
 
@@ -32,20 +40,20 @@ def evidence(result: Result) -> str:
         case Unknown(reason, depth, engine):
             none = "no run to it" if isinstance(result.property.form, Reachable) else "no counterexample"
             return f"{engine} on {result.system}, {none} within {counted_ticks(depth)}: {reason}"
-        case Proved((Exhausted() | Inductive()) as shown, engine, claim):
+        case Proved((Exhausted() | Inductive() | StoredInvariant()) as shown, engine, claim):
             whole = f"{engine}: {shown.how} of {result.system}"
             whole += f", depth {shown.depth}" if isinstance(shown, Exhausted) else ""
             return _joined(whole, claim, result.limited_to)
-        case Violated((Exhausted() | Inductive()) as shown, engine):
+        case Violated((Exhausted() | Inductive() | StoredInvariant()) as shown, engine):
             return _joined(f"{engine}: in none of {shown.how} of {result.system}", result.limited_to)
-        case Proved(Trace() as trace, engine):
+        case Proved((Trace() | StoredRun()) as trace, engine):
             return f"{engine}: witness of {ticks(trace)} on {result.system}"
-        case Violated(Trace() as trace, engine):
+        case Violated((Trace() | StoredRun()) as trace, engine):
             return f"{engine}: counterexample of {ticks(trace)} on {result.system}"
     raise AssertionError(verdict)
 
 
-def ticks(trace: Trace) -> str:
+def ticks(trace: Trace | StoredRun) -> str:
     """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
     seconds = trace.ms(len(trace)) / 1000
     return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"

@@ -75,15 +75,59 @@ class Inductive:
     @property
     def how(self) -> str:
         """``an invariant of 12 conjuncts``, ``3-induction with 5 conjuncts``."""
-        count = len(self.conjuncts)
-        many = f"{count} conjunct{'s' * (count != 1)}"
-        if self.ticks > 1:
-            return f"{self.ticks}-induction" + (f" with {many}" if count else "")
-        return f"an invariant of {many}" if count else "one tick from anywhere"
+        return _induction(len(self.conjuncts), self.ticks)
+
+
+def _induction(conjuncts: int, ticks: int) -> str:
+    many = f"{conjuncts} conjunct{'s' * (conjuncts != 1)}"
+    if ticks > 1:
+        return f"{ticks}-induction" + (f" with {many}" if conjuncts else "")
+    return f"an invariant of {many}" if conjuncts else "one tick from anywhere"
 
 
 Evidence = Union[Exhausted, Inductive]
 """What shows that no run reaches a goal."""
+
+
+@dataclass(frozen=True)
+class StoredInvariant:
+    """What is told of an inductive invariant that an earlier search found: see ``Inductive``."""
+
+    conjuncts: int
+    ticks: int = 1
+
+    @property
+    def how(self) -> str:
+        """As ``Inductive`` says it."""
+        return _induction(self.conjuncts, self.ticks)
+
+
+@dataclass(frozen=True)
+class StoredRun:
+    """A run that was replayed when it was found, as it is kept: all that is needed to replay it again.
+
+    Of a run without end ``loop`` is the tick after which it repeats, see ``Trace``; it takes ``total_ms``.
+    ``trapped`` and ``shortest`` as there.
+    """
+
+    run: Run
+    total_ms: int
+    loop: int | None = None
+    trapped: int | None = None
+    shortest: bool = False
+
+    def __len__(self) -> int:
+        return len(self.run)
+
+    def ms(self, tick: int) -> int:
+        """The time in ms at the end of the last tick.  Raises ``ValueError`` for any other."""
+        if tick != len(self):
+            raise ValueError(f"only the end of a run of {len(self)} ticks is kept, not tick {tick}")
+        return self.total_ms
+
+
+Stored = StoredInvariant | StoredRun
+"""What stands for a proof or a run that is kept."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +163,7 @@ class Proved:
     ``claim`` says what was shown of those states when that is not the property itself but implies it.
     """
 
-    because: Evidence | Trace
+    because: Evidence | Trace | Stored
     engine: str
     claim: str = ""
     word: VerdictWord = field(default="proved", init=False)
@@ -129,7 +173,7 @@ class Proved:
 class Violated:
     """The property fails: a replayed counterexample, or (reachability) an exhausted search."""
 
-    because: Trace | Evidence
+    because: Trace | Evidence | Stored
     engine: str
     word: VerdictWord = field(default="violated", init=False)
 

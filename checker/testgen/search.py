@@ -7,7 +7,7 @@ from itertools import groupby
 
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.scripts import Script, script
@@ -91,7 +91,7 @@ def searched(
             case Proved(Trace() as trace, engine):
                 inputs = list(board.run({**t.after, **t.inputs} for t in trace.ticks))
                 yield CoverFound(goal, script(board, inputs), engine, engine in SHORTEST_FIRST)
-            case Violated(because, engine) if not isinstance(because, Trace):
+            case Violated((Exhausted() | Inductive()) as because, engine):
                 yield Uncoverable(goal, system.name, engine, because.how)
             case Unknown(reason, _, _):
                 yield OpenGoal(goal, reason)
@@ -113,12 +113,13 @@ def refuted(
         mine = [g for g in goals if g.part == part]
         try:
             for goal, verdict in _verdicts(system, mine, limits, jobs):
-                if isinstance(verdict, Violated) and not isinstance(verdict.because, Trace):
-                    yield Uncoverable(goal, system.name, verdict.engine, verdict.because.how)
-                elif isinstance(verdict, Proved) and isinstance(verdict.because, Trace):
-                    yield OpenGoal(goal, f"{part} alone reaches it in {len(verdict.because)} ticks")
-                elif isinstance(verdict, str):
-                    yield SearchProgress(verdict)
+                match verdict:
+                    case Violated((Exhausted() | Inductive()) as because, engine):
+                        yield Uncoverable(goal, system.name, engine, because.how)
+                    case Proved(Trace() as trace):
+                        yield OpenGoal(goal, f"{part} alone reaches it in {len(trace)} ticks")
+                    case str(line):
+                        yield SearchProgress(line)
         except ModelError as error:
             yield SearchProgress(f"{part} alone says nothing: {error}")
 

@@ -7,7 +7,7 @@ from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.model.kept_runs import KeptRun
 from rovercheck.checker.results.exit_code import Exit
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
+from rovercheck.checker.results.verdict import Proved, StoredRun, Unknown, Verdict, Violated
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.expected import Expected
 
@@ -87,7 +87,7 @@ class CheckedProperty:
 def length(verdict: Verdict) -> int | None:
     """The number of ticks of the trace a verdict rests on, if it rests on one."""
     because = None if isinstance(verdict, Unknown) else verdict.because
-    return len(because) if isinstance(because, Trace) else None
+    return len(because) if isinstance(because, Trace | StoredRun) else None
 
 
 def worst(found: Sequence[CheckedProperty]) -> Exit:

@@ -11,6 +11,7 @@ from rovercheck.checker.results.verdict import (
     Open,
     Proved,
     Reached,
+    StoredRun,
     Unknown,
     Unreachable,
     Verdict,
@@ -101,11 +102,11 @@ def limited(one: Result, systems: Mapping[str, System]) -> Result:
 def _in_part(result: Result, system: System) -> bool:
     """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
     verdict = result.verdict
-    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
+    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace | StoredRun)
 
 
 def _limited_to(result: Result, system: System) -> str:
     """What is said of the system beside a proof; a run is one of the rover whatever was left out."""
     verdict = result.verdict
-    rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
+    rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace | StoredRun)
     return system.limited_to if rests_on_all else ""

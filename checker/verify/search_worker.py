@@ -18,6 +18,7 @@ from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.process.pool import GrantedTime
 from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Verdict, Violated
 from rovercheck.checker.system.formula_json import Tree
+from rovercheck.checker.system.initial import require_initial_tick
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.tasks import Task
@@ -27,6 +28,7 @@ from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from rovercheck.checker.certify.certificate import Certificate
+    from rovercheck.checker.store.verdicts import VerdictStore
     from rovercheck.checker.verify.certificates import Certification
     from rovercheck.checker.verify.portfolio.question import Found, PortfolioQuestion
 
@@ -36,11 +38,12 @@ _PAUSE = 0.5
 
 @dataclass(frozen=True)
 class PropertyDecided:
-    """What travels of a result: the property by its id."""
+    """What travels of a result: the property by its id, and under which slice the store keeps it."""
 
     id: str
     verdict: Verdict
     system: str
+    slice: str | None = None
 
 
 @dataclass(frozen=True)
@@ -65,11 +68,13 @@ class SearchWorker:
         engine: str | Engine,
         limits: Limits,
         certifying: "Certification | None",
+        store: "VerdictStore | None" = None,
     ) -> None:
         self._systems = systems
         self._engine = engine
         self._limits = limits
         self._certifying = certifying
+        self._store = store
 
     def __call__(
         self,
@@ -119,13 +124,45 @@ class SearchWorker:
             ):
                 send(StaysInDomains())
 
+        slices = self._slices(task)
+        task = self._not_stored(send, task, slices)
+        if not task.properties:
+            return
         callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
         for one in decide(task, self._systems, self._engine, self._limits, callbacks, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
-            send(PropertyDecided(one.property.id, results[-1].verdict, one.system))
+            id = one.property.id
+            send(PropertyDecided(id, results[-1].verdict, one.system, slices.get(id)))
         callbacks.on_budget(None)
         if self._certifying is not None:
             self._certify(send, self._certifying, task, results, recorder.made)
+
+    def _slices(self, task: Task) -> dict[str, str | None]:
+        """Under which names the store keeps what depends on the same slices, by property."""
+        if self._store is None:
+            return {}
+        require_initial_tick(lowered(task.system))
+        return {p.id: self._store.slice(p, self._systems) for p in task.properties}
+
+    def _not_stored(self, send: Send, task: Task, slices: Mapping[str, str | None]) -> Task:
+        """What is left of a task after what is in the store; its runs are replayed."""
+        if self._store is None or self._certifying is not None:
+            return task
+        from rovercheck.checker.verify.runs.stored import replayed
+
+        left = []
+        for prop in task.properties:
+            for name in (self._store.question(prop, self._systems), slices[prop.id]):
+                kept = self._store.read(name)
+                verdict = None if kept is None else replayed(kept, prop, self._systems)
+                if kept is not None and verdict is not None:
+                    send(PropertyDecided(prop.id, verdict, kept.system, slices[prop.id]))
+                    break
+                if kept is not None:
+                    self._store.remove(name)
+            else:
+                left.append(prop)
+        return replace(task, properties=tuple(left))
 
     def _certify(
         self,

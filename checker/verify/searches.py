@@ -13,7 +13,7 @@ from rovercheck.checker.engines import AUTO, Engine, Limits, Stage
 from rovercheck.checker.model.kept_invariants import Invariants
 from rovercheck.checker.process.faults import Fault, report
 from rovercheck.checker.process.pool import Order, Pool, PoolEvent
-from rovercheck.checker.results.verdict import Proved, Unknown, Verdict
+from rovercheck.checker.results.verdict import Proved, StoredRun, Unknown, Verdict
 from rovercheck.checker.system.formula_json import Tree
 from rovercheck.checker.verify.result import Result, limited
 from rovercheck.checker.verify.search_worker import (
@@ -28,6 +28,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
+    from rovercheck.checker.store.verdicts import VerdictStore
     from rovercheck.checker.verify.certificates import Certification
 
 NO_LIMITS = Limits()
@@ -40,7 +41,9 @@ class SearchSettings:
     """How properties are decided: by which engine, within which limits, by how many searches at a time.
 
     ``engine`` is the name of one, ``auto`` or ``all``; ``jobs`` is None for one search per processor.
-    ``invariants`` of earlier proofs are tried first; ``certifying`` says what to do with proofs.
+    ``invariants`` of earlier proofs are tried first; ``certifying`` says what to do with proofs.  What is in
+    the ``store`` is not decided again, and what is decided is kept there.  With ``traces``, a run that is kept
+    is replayed; else a ``StoredRun`` stands for it.
     """
 
     engine: str | Engine = AUTO
@@ -48,6 +51,8 @@ class SearchSettings:
     jobs: int | None = None
     invariants: Invariants = field(default_factory=dict)
     certifying: "Certification | None" = None
+    store: "VerdictStore | None" = None
+    traces: bool = True
 
 
 @dataclass(frozen=True)
@@ -94,13 +99,30 @@ def events(
 
     Raises what ``searches`` raises.  Closing the generator ends all searches.
     """
+    known = dict(stored(properties, systems, search))
+    left = [p for p in properties if p.id not in known]
     # The largest first, so that no long search is left for the end; those of one system together.
-    planned = (replace(t, recorded=on_record(t, search.invariants)) for t in tasks(properties, systems))
+    planned = (replace(t, recorded=on_record(t, search.invariants)) for t in tasks(left, systems))
     todo = sorted(planned, key=lambda t: (-t.size, t.system.name, t.title))
     yield SearchesPlanned(len(todo))
+    yield from (limited(one, systems) for one in known.values())
     with closing(searches(todo, systems, search)) as heard:
         for one in heard:
             yield limited(one, systems) if isinstance(one, Result) else one
+
+
+def stored(
+    properties: Sequence[Property], systems: Mapping[str, System], search: SearchSettings
+) -> Iterator[tuple[str, Result]]:
+    """What is kept of the very same questions, by id, where it need not be replayed or certified."""
+    if search.store is None or search.certifying is not None:
+        return
+    for prop in properties:
+        if prop.on not in systems:
+            return  # which is said where it is asked
+        kept = search.store.read(search.store.question(prop, systems))
+        if kept is not None and not (search.traces and isinstance(kept.verdict.because, StoredRun)):
+            yield prop.id, Result(prop, kept.verdict, kept.system)
 
 
 def searches(
@@ -120,11 +142,12 @@ def searches(
     nothing is proved of a system that is then refused.
     """
     needed, limits, certifying = _needed(todo, systems), search.limits, search.certifying
-    settings = needed, search.engine, limits, certifying
+    settings = needed, search.engine, limits, certifying, search.store
     pool = Pool(search.jobs or cores(), SearchWorker, settings, limits.memory + SLACK)
     orders = [Order((task.system.name, task.properties, task.recorded), task.system.name) for task in todo]
     waiting = certifying is not None and certifying.again
     returns = [_Returns(task, waiting, limits.seconds) for task in todo]
+    keep = _Keeping(search.store, systems)
     gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
     warned: set[str] = set()
     with closing(pool.run(orders, lambda number: returns[number].again())) as events:
@@ -136,6 +159,8 @@ def searches(
                         continue
                     if isinstance(one, MachineWarning):
                         warned.add(one.text)
+                    if isinstance(one, Result):
+                        keep(one, back.slices.get(one.property.id))
                     yield one
         except BaseException as error:
             if not isinstance(error, GeneratorExit | ModelError):  # nothing that is said of the model
@@ -152,6 +177,19 @@ def _passed(
             yield from gates[one.system].passed([one])
         else:
             yield one
+
+
+@dataclass(frozen=True)
+class _Keeping:
+    """Keeps what was decided, once nothing can take it back."""
+
+    store: "VerdictStore | None"
+    systems: Mapping[str, System]
+
+    def __call__(self, one: Result, slice: str | None) -> None:
+        if self.store is not None:
+            for name in (self.store.question(one.property, self.systems), slice):
+                self.store.write(name, one.verdict, one.system)
 
 
 class _Gate:
@@ -195,6 +233,8 @@ class _Returns:
         self._reported: dict[str, str] = {}
         self._taken = False
         self._anew = False
+        self.slices: dict[str, str | None] = {}
+        """The names under which the store keeps what depends on the same slices, by property."""
 
     def again(self) -> Order | None:
         """What to do after a crash: search with code compiled anew; None if that was not the cause.
@@ -237,7 +277,8 @@ class _Returns:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
             case PropertyDecided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
-            case PropertyDecided(id, verdict, system):
+            case PropertyDecided(id, verdict, system, slice):
+                self.slices[id] = slice
                 result = Result(self._left.pop(id), verdict, system)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result

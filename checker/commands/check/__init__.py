@@ -174,7 +174,15 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
         writable(options.certificates)
     wanted = options.certify or options.certificates
     certifying = certify(variant, options.certificates, options.certify) if wanted else None
-    return SearchSettings(engine, limits, options.jobs, invariants_of(variant.model), certifying)
+    return SearchSettings(
+        engine,
+        limits,
+        options.jobs,
+        invariants_of(variant.model),
+        certifying,
+        None if options.record_invariants else search.store(engine),
+        traces=bool(options.junit or options.sarif or options.annotations),
+    )
 
 
 def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import write
@@ -12,7 +13,7 @@ from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import counted_ticks
-from rovercheck.checker.results.verdict import Proved, Unknown
+from rovercheck.checker.results.verdict import Proved, Run, StoredRun, Unknown
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.known_runs import reached, run_of
@@ -20,6 +21,9 @@ from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property
 from rovercheck.properties.premise import premise
 from rovercheck.spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from rovercheck.checker.store.verdicts import VerdictStore
 
 PATIENCE = 5.0
 """Seconds for each search for a case where verdicts are what is asked for."""
@@ -43,7 +47,8 @@ def cases(
     """
     wanted, before = _wanted(found), shown or {}
     found_out = {id: before[id] for id in wanted if id in before}
-    found_out |= _again({id: case for id, case in wanted.items() if id not in before}, known, systems)
+    left_over = {id: case for id, case in wanted.items() if id not in before}
+    found_out |= _again(left_over, known, systems, search.store)
     left = [case for id, case in wanted.items() if id not in found_out]
     for one in _searched(left, systems, search, quiet):
         found_out[one.property.id] = premise_case(one, systems)
@@ -53,7 +58,7 @@ def cases(
 def patient(search: SearchSettings, seconds: float) -> SearchSettings:
     """The same for cases: so many seconds for each at most, and nothing is certified."""
     limits = replace(search.limits, seconds=min(seconds, search.limits.seconds or seconds))
-    return SearchSettings(search.engine, limits, search.jobs)
+    return SearchSettings(search.engine, limits, search.jobs, store=search.store, traces=False)
 
 
 @dataclass
@@ -69,16 +74,16 @@ class PremiseSearch:
     search: SearchSettings
     quiet: bool
     keep: bool
-    _shown: dict[str, PremiseCase] = field(default_factory=dict)
+    _told: dict[str, PremiseCase] = field(default_factory=dict)
 
     def on_result(self, one: CheckedProperty) -> None:
         """Go through the recorded run of a proof that speaks of a case."""
-        self._shown |= _again(_wanted([one]), self.known, self.systems)
+        self._told |= _again(_wanted([one]), self.known, self.systems, self.search.store)
 
     def __call__(self, found: Sequence[CheckedProperty]) -> Mapping[str, PremiseCase]:
         """For each proof that speaks of a case, by id, whether it occurs on its system."""
         search = patient(self.search, LONG if self.keep else PATIENCE)
-        told = cases(found, self.systems, search, self.known, self.quiet, self._shown)
+        told = cases(found, self.systems, search, self.known, self.quiet, self._told)
         if self.keep:
             record(told, self.model)
         return told
@@ -114,16 +119,31 @@ def _wanted(found: Sequence[CheckedProperty]) -> dict[str, Property]:
 
 
 def _again(
-    wanted: Mapping[str, Property], known: Mapping[str, KeptRun], systems: Mapping[str, System]
+    wanted: Mapping[str, Property],
+    known: Mapping[str, KeptRun],
+    systems: Mapping[str, System],
+    store: "VerdictStore | None",
 ) -> Iterator[tuple[str, PremiseCase]]:
     """The cases that recorded runs still show."""
     for id, case in wanted.items():
         kept = known.get(id)
         if kept is not None and kept.system in systems:
-            system = systems[kept.system]
-            shown = reached(system, [replace(case, on=system.name)], [kept.run])
-            if id in shown:
-                yield id, PremiseCase(True, _occurs(len(shown[id]), system), replace(kept, run=shown[id]))
+            run = _shown(replace(case, on=kept.system), systems[kept.system], kept.run, store)
+            if run is not None:
+                yield id, PremiseCase(True, _occurs(len(run), systems[kept.system]), replace(kept, run=run))
+
+
+def _shown(case: Property, system: System, run: Run, store: "VerdictStore | None") -> Run | None:
+    """The part of a run up to a case, if it shows that; one that did before is not gone through again."""
+    name = store.about("case", case, system, run) if store is not None else None
+    before = store.read(name) if store is not None else None
+    if before is not None and isinstance(before.verdict.because, StoredRun):
+        return before.verdict.because.run
+    found = reached(system, [case], [run]).get(case.id)
+    if found is not None and store is not None:
+        shown = StoredRun(found, len(found) * system.tick_ms)
+        store.write(name, Proved(shown, "replay"), system.name)
+    return found
 
 
 def _searched(

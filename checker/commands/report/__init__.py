@@ -101,12 +101,14 @@ def report(
         properties = selection.properties(variant)
         if variant.name:
             properties = askable(variant, properties)
+        engine = pick_engine(search.engine)
         settings = SearchSettings(
-            pick_engine(search.engine),
+            engine,
             search.limits(options.memory),
             options.jobs,
             invariants_of(variant.model),
             certifying(variant, None, True) if options.certify else None,
+            search.store(engine),
         )
         some = not selection.whole or bool(variant.name)
         return run(

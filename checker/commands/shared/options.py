@@ -12,10 +12,11 @@ import click
 
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.silence import silence
-from rovercheck.checker.engines import AUTO, Limits, Timers
+from rovercheck.checker.engines import AUTO, Engine, Limits, Timers
 
 if TYPE_CHECKING:
     from rovercheck.checker.model.variant import Variant
+    from rovercheck.checker.store.verdicts import VerdictStore
     from rovercheck.properties.forms import Property
 
 
@@ -80,17 +81,24 @@ class SelectionOptions:
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Who searches, and what a search may take: ticks, seconds."""
+    """Who searches, what a search may take (ticks, seconds), and whether earlier verdicts are believed."""
 
     engine: str
     depth: int | None
     timeout: float | None
     timers: str
+    no_store: bool = False
 
     def limits(self, memory: float | None = None) -> Limits:
         """The same as limits, with so many GiB of memory."""
         limits = Limits(self.depth, self.timeout, timers=Timers(self.timers))
         return limits if memory is None else replace(limits, memory=int(memory * 2**30))
+
+    def store(self, engine: "str | Engine") -> "VerdictStore | None":
+        """Where verdicts of that engine are kept; None where they are not."""
+        from rovercheck.checker.store.verdicts import store
+
+        return None if self.no_store else store(engine, self.limits())
 
 
 Verb = Callable[..., Exit]
@@ -156,6 +164,9 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
             default=Timers.EXACT.value,
             show_default=True,
             help="Count every tick, skip quiet ones, or try first with timers that may expire at any time.",
+        ),
+        click.option(
+            "--no-store", is_flag=True, help="Decide all anew: neither use nor keep verdicts of other runs."
         ),
     )
 

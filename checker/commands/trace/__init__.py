@@ -99,4 +99,5 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
         options.witnesses,
         options.by,
     )
-    return run(wanted, pick_engine(search.engine), search.limits(), showing)
+    engine = pick_engine(search.engine)
+    return run(wanted, engine, search.limits(), showing, search.store(engine))

@@ -28,6 +28,7 @@ from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from rovercheck.checker.explain.other_runs import NoOtherRun
+    from rovercheck.checker.store.verdicts import VerdictStore
 
 FOR_READERS = ("table", "markdown")
 SECONDS = 30.0
@@ -90,11 +91,12 @@ def trace(
     engine: str,
     limits: Limits,
     showing: TraceDisplay,
+    store: "VerdictStore | None" = None,
 ) -> Exit:
     """Decide a property and show its trace; say so when its verdict rests on none."""
     prop, systems = wanted.property, wanted.systems
     showing.check(prop)
-    [result] = results([prop], systems, SearchSettings(engine, limits))
+    [result] = results([prop], systems, SearchSettings(engine, limits, store=store))
     verdict = result.verdict
     if isinstance(verdict, Unknown):
         err.print(f"{prop.id} is unknown: {evidence(result)}", markup=False)

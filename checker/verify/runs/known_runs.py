@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Proved, Run, Verdict, Violated
+from rovercheck.checker.results.verdict import Proved, Run, StoredRun, Verdict, Violated
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.runs.domains import stayed
 from rovercheck.properties.forms import Property, Unbounded
@@ -17,6 +17,8 @@ def run_of(verdict: Verdict) -> Run | None:
     match verdict:
         case Proved(Trace() as trace) | Violated(Trace() as trace) if trace.loop is None:
             return run_in(trace)
+        case Proved(StoredRun(run, loop=None)) | Violated(StoredRun(run, loop=None)):
+            return run
     return None
 
 

@@ -1,0 +1,125 @@
+"""Verdicts that are kept between commands: under what was asked, and under the slice that it depends on.
+
+An entry is what one found out who asked the same question of the same code: a run as its inputs, which can be
+replayed, or what a proof rests on.  It is sealed as compiled code is (``checker.cache.entries``): what others
+wrote or changed counts as missing.  What is unknown is never kept.
+"""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from hashlib import sha256
+from typing import Any
+
+from rovercheck.checker.cache import entries
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.results.verdict import Verdict
+from rovercheck.checker.store.content import ContentKeys, NoKey
+from rovercheck.checker.store.verdict_json import Definite, entry, verdict
+from rovercheck.checker.store.versions import deciding
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.spec_model.lang.system import System
+
+VARIABLE = "ROVERCHECK_STORE"
+"""Empty: no verdict is kept."""
+SCHEMA = "rovercheck/stored-verdict/1"
+_LARGEST = 4 << 20
+"""Bytes of an entry."""
+
+
+@dataclass(frozen=True)
+class StoredVerdict:
+    """A verdict that is kept, and the name of the system that it is about."""
+
+    verdict: Definite
+    system: str
+
+
+@dataclass
+class VerdictStore:
+    """What is kept of verdicts that one engine, or engines in turn, found within a depth.
+
+    ``reading``: what is kept is believed; else it is only written.
+    """
+
+    asked: str
+    reading: bool = True
+    _keys: ContentKeys = field(default_factory=ContentKeys, repr=False)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return VerdictStore, (self.asked, self.reading)
+
+    def question(self, prop: Property, systems: Mapping[str, System]) -> str | None:
+        """The name of the entry about a property of systems as they are written; None where there is none."""
+        return self.about("question", prop, *(systems[name] for name in self._systems(prop, systems)))
+
+    def about(self, kind: str, *values: object) -> str | None:
+        """The name of an entry of some kind about some values; None where there is none."""
+        try:
+            return self._name(kind, self._keys.key(*values))
+        except (NoKey, RecursionError, OSError):
+            return None
+
+    def slice(self, prop: Property, systems: Mapping[str, System]) -> str | None:
+        """The name of the entry about the slices that the verdict depends on; None where there is none.
+
+        Of a system that may leave a domain, what decides that belongs to it.
+        """
+        from rovercheck.checker.store.slices import slice_text
+
+        if isinstance(prop.form, Unbounded):
+            return None
+        try:
+            texts = [
+                slice_text(replace(prop, on=name), systems[name]) for name in self._systems(prop, systems)
+            ]
+            return self._name("slice", self._keys.key(replace(prop, on=""), *texts))
+        except (NoKey, RecursionError, OSError):
+            return None
+
+    @staticmethod
+    def _systems(prop: Property, systems: Mapping[str, System]) -> list[str]:
+        concrete = systems[prop.on].concrete
+        return [prop.on, concrete] if concrete else [prop.on]
+
+    def _name(self, kind: str, key: str) -> str:
+        whole = "\n".join((SCHEMA, deciding(), self.asked, kind, key))
+        return f"{sha256(whole.encode()).hexdigest()}-verdict-json"
+
+    def read(self, name: str | None) -> StoredVerdict | None:
+        """What is kept under a name; None where there is nothing that has a meaning."""
+        if name is None or not self.reading:
+            return None
+        whole = entries.read(name, code=False)
+        if whole is None:
+            return None
+        try:
+            found: Any = json.loads(whole)
+            return StoredVerdict(verdict(found), str(found["system"]))
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            return None
+
+    def write(self, name: str | None, found: Verdict, system: str) -> None:
+        """Keep a verdict, if it is one and not too large."""
+        if name is None or not isinstance(found, Definite):
+            return
+        whole = json.dumps(entry(found, system), separators=(",", ":")).encode()
+        if len(whole) <= _LARGEST:
+            entries.write(name, whole)
+
+    def remove(self, name: str | None) -> None:
+        """Keep nothing under a name."""
+        if name is not None:
+            entries.remove(name)
+
+
+def store(engine: object, limits: Limits, reading: bool = True) -> VerdictStore | None:
+    """The store of what such searches find; None where verdicts are not kept, and for an engine of a user's.
+
+    Seconds and memory do not matter: what they end is unknown.
+    """
+    if not isinstance(engine, str) or os.environ.get(VARIABLE) == "":
+        return None
+    return VerdictStore(f"{engine} {limits.timers} {limits.depth} {limits.transitions}", reading)
+

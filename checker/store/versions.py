@@ -1,0 +1,69 @@
+"""What decides, as one short key: rovercheck's own code and the versions of everything installed beside it.
+
+A verdict is kept for the code that found it.  Charts and properties are not part of it: they are the question.
+"""
+
+import platform
+import sys
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from time import time
+
+_ROOT = Path(__file__).parents[2]
+_LOADED = time()
+"""When this module was loaded, in seconds of the clock that files are dated by."""
+SOURCES = (
+    "checker/cache",
+    "checker/certify",
+    "checker/encode",
+    "checker/engines",
+    "checker/io",
+    "checker/model/kept_runs.py",
+    "checker/process",
+    "checker/results",
+    "checker/search",
+    "checker/store",
+    "checker/system",
+    "checker/verify",
+    "properties/forms.py",
+    "properties/pasttime.py",
+    "properties/reduce.py",
+    "spec_model/lang",
+)
+"""Files and folders of modules that take part in a verdict."""
+
+
+class ChangedMeanwhile(OSError):
+    """A module that decides is no longer what was loaded."""
+
+
+@cache
+def deciding() -> str:
+    """The key.  Raises ``OSError`` without the sources, and where one has changed since it was loaded."""
+    digest = sha256()
+    for path in sources():
+        if path.stat().st_mtime > _LOADED:
+            raise ChangedMeanwhile(f"{path} has changed since it was loaded.")
+        digest.update(f"{path.relative_to(_ROOT).as_posix()}\0".encode())
+        digest.update(sha256(path.read_bytes()).digest())
+    digest.update(repr((sys.version, platform.machine(), sys.platform, installed())).encode())
+    return digest.hexdigest()
+
+
+def sources() -> list[Path]:
+    """The files of the modules that take part in a verdict, in order."""
+    found: list[Path] = []
+    for name in SOURCES:
+        path = _ROOT / name
+        found += path.rglob("*.py") if path.is_dir() else [path]
+    return sorted(found)
+
+
+def installed() -> list[str]:
+    """The packages that can be imported, each with its version, as their folders are called."""
+    found = set[str]()
+    for place in map(Path, filter(None, sys.path)):
+        if place.is_dir():
+            found |= {path.name for path in place.glob("*.dist-info")}
+    return sorted(found)
