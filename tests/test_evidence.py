@@ -18,11 +18,12 @@ import pytest
 from rovercheck.checker.commands.check.findings import Guide, about_cases, about_faults, read_on
 from rovercheck.checker.commands.check.further import CheckExtras, noticing
 from rovercheck.checker.commands.check.premises import PATIENCE, cases, patient
-from rovercheck.checker.commands.check.run import line, summary
+from rovercheck.checker.commands.check.text import line, summary
 from rovercheck.checker.commands.reports.record import VerdictRecord, read
 from rovercheck.checker.commands.reports.run import differences, pages
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.text_wrap import plain
+from rovercheck.checker.commands.shared.told import told
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import kept_runs
 from rovercheck.checker.model.rover import rover
@@ -50,21 +51,22 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
     decided = [
         CheckedProperty(r, expected(r.property.id)) for r in record.decided(affordable, systems(), Limits())
     ]
-    told = cases(decided, systems(), patient(SearchSettings(), PATIENCE), {}, shown=occurring())
+    known = cases(decided, systems(), patient(SearchSettings(), PATIENCE), {}, shown=occurring())
     further = CheckExtras(noticing=noticing(rover()))
     verdicts = [
-        replace(c, case=told.get(c.result.property.id), noticed=further.noticed(c), strict=True)
+        replace(c, case=known.get(c.result.property.id), noticed=further.noticed(c), strict=True)
         for c in decided
     ]
     assert len(verdicts) == len(affordable)
-    assert [line(c) for c in verdicts if c.code is not Exit.AS_EXPECTED] == []
+    every = [told(c, systems()) for c in verdicts]
+    assert [line(one) for one in every if one.exit is not Exit.AS_EXPECTED] == []
     guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
-    summary(verdicts, guide)
+    summary(every, guide)
     said = capsys.readouterr().out.splitlines()
-    cases_and_faults = [*about_cases(verdicts), *about_faults(verdicts)]
-    ending = [*said, *cases_and_faults, *read_on(verdicts, systems(), guide)]
+    cases_and_faults = [*about_cases(every), *about_faults(every)]
+    ending = [*said, *cases_and_faults, *read_on(every, guide)]
     shown, end = sample()
-    assert [s for s in shown if s not in {line(c) for c in verdicts}] == []
+    assert [s for s in shown if s not in {line(one) for one in every}] == []
     printed = [re.sub(r": \S*rovercheck ", ": .venv/bin/rovercheck ", plain(text)) for text in ending]
     [cut] = [number for number, text in enumerate(end) if text.startswith("  ...")]
     assert end[:cut] == printed[:cut]

@@ -7,6 +7,8 @@ from pathlib import Path
 
 VARIABLE = "ROVERCHECK_CACHE"
 """Names the folder of the cache; empty: there is none."""
+STORE = "ROVERCHECK_STORE"
+"""Empty: no verdict is kept in the cache."""
 _CAREFUL = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NONBLOCK", "O_BINARY"))
 """No link is followed, no pipe waited for."""
 _OTHERS = stat.S_IWGRP | stat.S_IWOTH

@@ -85,7 +85,11 @@ def verdict(found: VerdictEntry) -> Definite:
 
 def _evidence(found: Mapping[str, Any]) -> Exhausted | Stored:
     match found:
-        case {"exhausted": [int(states), int(tried), int(depth)], "variables": list(names), "skipped": skipped}:
+        case {
+            "exhausted": [int(states), int(tried), int(depth)],
+            "variables": list(names),
+            "skipped": skipped,
+        }:
             return Exhausted(states, tried, depth, tuple(map(str, names)), bool(skipped))
         case {"inductive": int(count), "ticks": int(ticks)}:
             return StoredInvariant(count, ticks)

@@ -13,6 +13,7 @@ from hashlib import sha256
 from typing import Any
 
 from rovercheck.checker.cache import entries
+from rovercheck.checker.cache.places import STORE
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.results.verdict import Verdict
 from rovercheck.checker.store.content import ContentKeys, NoKey
@@ -21,8 +22,6 @@ from rovercheck.checker.store.versions import deciding
 from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.spec_model.lang.system import System
 
-VARIABLE = "ROVERCHECK_STORE"
-"""Empty: no verdict is kept."""
 SCHEMA = "rovercheck/stored-verdict/1"
 _LARGEST = 4 << 20
 """Bytes of an entry."""
@@ -119,7 +118,6 @@ def store(engine: object, limits: Limits, reading: bool = True) -> VerdictStore 
 
     Seconds and memory do not matter: what they end is unknown.
     """
-    if not isinstance(engine, str) or os.environ.get(VARIABLE) == "":
+    if not isinstance(engine, str) or os.environ.get(STORE) == "":
         return None
     return VerdictStore(f"{engine} {limits.timers} {limits.depth} {limits.transitions}", reading)
-

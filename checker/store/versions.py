@@ -1,6 +1,6 @@
 """What decides, as one short key: rovercheck's own code and the versions of everything installed beside it.
 
-A verdict is kept for the code that found it.  Charts and properties are not part of it: they are the question.
+A verdict is kept for the code that found it.  Charts and properties are no part of it: they are the question.
 """
 
 import platform

@@ -102,7 +102,11 @@ def limited(one: Result, systems: Mapping[str, System]) -> Result:
 def _in_part(result: Result, system: System) -> bool:
     """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
     verdict = result.verdict
-    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace | StoredRun)
+    return (
+        system.under
+        and not isinstance(verdict, Unknown)
+        and not isinstance(verdict.because, Trace | StoredRun)
+    )
 
 
 def _limited_to(result: Result, system: System) -> str:

@@ -42,8 +42,8 @@ class SearchSettings:
 
     ``engine`` is the name of one, ``auto`` or ``all``; ``jobs`` is None for one search per processor.
     ``invariants`` of earlier proofs are tried first; ``certifying`` says what to do with proofs.  What is in
-    the ``store`` is not decided again, and what is decided is kept there.  With ``traces``, a run that is kept
-    is replayed; else a ``StoredRun`` stands for it.
+    the ``store`` is not decided again, and what is decided is kept there.  With ``traces``, a run that is
+    kept is replayed; else a ``StoredRun`` stands for it.
     """
 
     engine: str | Engine = AUTO

@@ -12,6 +12,7 @@ from rovercheck.checker.commands.check import findings
 from rovercheck.checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.text_wrap import plain
+from rovercheck.checker.commands.shared.told import ToldVerdict, told
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
@@ -21,7 +22,7 @@ from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, Reachable, always, reachable
 from rovercheck.properties.requirements import PROMISES, requirements
 from rovercheck.spec_model.lang.expr import flag
-from tests.render.exits_zoo import told
+from tests.render.exits_zoo import told as noted
 from tests.render.zoo import long_trace
 
 LIFT = str(Path(__file__).parents[2] / "examples/models/lift")
@@ -40,21 +41,23 @@ def situation(id: str, *covers: str) -> Property:
 
 def run_of(ticks: int) -> Trace:
     """Some run of so many ticks."""
-    return told(long_trace(ticks - 3))
+    return noted(long_trace(ticks - 3))
 
 
-def on(prop: Property, verdict: Verdict, in_part: bool = False) -> CheckedProperty:
-    return CheckedProperty(Result(prop, verdict, "toy", in_part), Expected(verdict.word))
+BY_SIZE = {"toy": rover().systems["relay"], "whole": rover().systems["rover"]}
 
 
-def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> CheckedProperty:
-    return CheckedProperty(
-        Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system), Expected("violated")
-    )
+def on(prop: Property, verdict: Verdict, in_part: bool = False) -> ToldVerdict:
+    return told(CheckedProperty(Result(prop, verdict, "toy", in_part), Expected(verdict.word)), BY_SIZE)
 
 
-def ids(found: Sequence[CheckedProperty]) -> list[str]:
-    return [one.result.property.id for one in found]
+def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> ToldVerdict:
+    result = Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system)
+    return told(CheckedProperty(result, Expected("violated")), BY_SIZE)
+
+
+def ids(found: Sequence[ToldVerdict]) -> list[str]:
+    return [one.id for one in found]
 
 
 REACHED = on(situation("S-1"), Proved(run_of(5), "bmc"))
@@ -73,12 +76,11 @@ REACHED = on(situation("S-1"), Proved(run_of(5), "bmc"))
          "2 demands: 1 proved for a restricted model, 1 unknown; 1 situation: unknown."),
     ],
 )  # fmt: skip
-def test_demands_and_situations_are_counted_apart(found: list[CheckedProperty], said: str) -> None:
+def test_demands_and_situations_are_counted_apart(found: list[ToldVerdict], said: str) -> None:
     assert totals(found) == said
 
 
 def test_the_gravest_finding_of_each_requirement_comes_first() -> None:
-    by_size = {"toy": rover().systems["relay"], "whole": rover().systems["rover"]}
     found = [
         broken("D-1", "R-2", ticks=5),
         broken("D-2", "R-2", ticks=4),
@@ -89,13 +91,13 @@ def test_the_gravest_finding_of_each_requirement_comes_first() -> None:
         on(demand("D-6", "R-1"), ALL),
         broken("D-7", "R-2", "R-1", ticks=10),
     ]
-    assert ids(gravest(found, by_size, ["R-1", "R-2"])) == ["D-4", "D-2", "D-5", "D-3", "D-1", "D-7", "S-1"]
+    assert ids(gravest(found, ["R-1", "R-2"])) == ["D-4", "D-2", "D-5", "D-3", "D-1", "D-7", "S-1"]
 
 
 def test_no_finding_is_left_out_without_a_word() -> None:
     found = [broken(f"D-{n}", f"R-{n}") for n in range(SHOWN + 3)]
     guide = Guide(gravest=[f"R-{n}" for n in range(SHOWN + 3)], causes="causes.md")
-    blank, head, *lines = read_on([*found, REACHED], {}, guide)
+    blank, head, *lines = read_on([*found, REACHED], guide)
     assert blank == "" and head.endswith(f"({SHOWN} of {SHOWN + 3}):")
     assert lines[:SHOWN] == [f"  D-{n}, toy: D-{n} is kept." for n in range(SHOWN)]
     assert lines[SHOWN] == "" and plain(lines[SHOWN + 1]).endswith("rovercheck trace D-0")
@@ -103,7 +105,7 @@ def test_no_finding_is_left_out_without_a_word() -> None:
     assert lines[SHOWN + 3] == "Causes and proposed repairs: causes.md"
     assert next(listed(found[:SHOWN])) == "Violated, the gravest first:"
     assert next(listed(found[:1])) == "Violated:"
-    assert list(read_on([REACHED], {}, Guide())) == []
+    assert list(read_on([REACHED], Guide())) == []
 
 
 def test_the_promises_of_the_rover_come_first() -> None:

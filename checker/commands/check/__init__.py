@@ -1,11 +1,14 @@
 """The verb ``check``: properties against the expected verdicts."""
 
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from rovercheck.checker.cache.places import STORE
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.options import (
     GIB,
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
     from rovercheck.checker.commands.check.further import CheckExtras
     from rovercheck.checker.commands.check.premises import PremiseSearch
     from rovercheck.checker.commands.check.run import ResultDelivery
+    from rovercheck.checker.commands.check.unchanged import ToldStore
+    from rovercheck.checker.commands.shared.told import ToldVerdict
     from rovercheck.checker.model.variant import Variant
     from rovercheck.checker.verify.searches import SearchSettings
 
@@ -47,6 +52,12 @@ class CheckOptions:
     junit: Path | None
     sarif: Path | None
     annotations: str | None
+
+    @property
+    def writes(self) -> bool:
+        """Whether more is wanted than what is printed."""
+        written = self.junit, self.sarif, self.annotations, self.record_premises, self.record_invariants
+        return any(written)
 
     def possible(self) -> None:
         """Raises ``UsageError`` for options that exclude each other."""
@@ -122,6 +133,10 @@ def check(
     selection: SelectionOptions, options: CheckOptions, charts: VariantOptions, search: SearchOptions
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
+    options.possible()
+    kept = _kept(options, charts, search)
+    if kept is not None and (code := _unchanged(kept, selection, options)) is not None:
+        return code
     from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
@@ -138,7 +153,6 @@ def check(
             properties = list({p.id: p for p in more}.values())
         if variant.name:
             properties = askable(variant, properties)
-        options.possible()
         settings = _settings(search, options, variant)
         guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
         deliver = _delivering(options, variant)
@@ -152,9 +166,59 @@ def check(
                 variant.expected,
                 further,
                 options.strict,
+                _keeping(kept, variant),
             ),
             CheckOutput(options.as_json, options.quiet, guide, deliver),
         )
+
+
+def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) -> "ToldStore | None":
+    """Where it is kept what is told of the rover as specified; None where something else is asked."""
+    if charts != VariantOptions() or search.no_store or os.environ.get(STORE) == "":
+        return None
+    if options.no_premises or options.certify or options.certificates or options.all_engines:
+        return None
+    from rovercheck.checker.commands.check.unchanged import ToldStore
+
+    return ToldStore.now(search)
+
+
+def _unchanged(kept: "ToldStore", selection: SelectionOptions, options: CheckOptions) -> Exit | None:
+    """Say again what was told of properties while no file has changed; None where that cannot be done."""
+    if options.writes or (selection.whole and selection.full):
+        return None
+    model = kept.read()
+    chosen = model.chosen(selection) if model is not None else None
+    if model is None or chosen is None:
+        return None
+    from rovercheck.checker.commands.check.findings import Guide, causes_of_rover
+    from rovercheck.checker.commands.check.text import CheckText
+    from rovercheck.checker.commands.shared.told import worst
+
+    told = [replace(one, strict=options.strict) for one in chosen]
+    text = CheckText(
+        options.as_json, options.quiet, Guide("", selection.again, model.order, causes_of_rover())
+    )
+    for one in told:
+        text.each(one)
+    text.end(told, (), False)
+    return worst([one.exit for one in told])
+
+
+def _keeping(kept: "ToldStore | None", variant: "Variant") -> "Callable[[Sequence[ToldVerdict]], None]":
+    """Keeps what was told of the rover."""
+    from rovercheck.checker.commands.check.run import unkept
+
+    if kept is None:
+        return unkept
+    from rovercheck.checker.commands.check.unchanged import ToldModel, ToldProperty, keepable
+
+    def keep(found: "Sequence[ToldVerdict]") -> None:
+        properties = {id: ToldProperty(p.on, p.costly) for id, p in variant.properties().items()}
+        told = {one.id: replace(one, strict=False) for one in found if keepable(one)}
+        kept.add(ToldModel(properties, list(variant.systems()), variant.model.by_gravity, told))
+
+    return keep
 
 
 def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") -> "SearchSettings":

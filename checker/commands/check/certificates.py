@@ -1,15 +1,18 @@
 """What came of checking proofs again, in words: one for a verdict, a few lines for all of them."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import TYPE_CHECKING
 
-from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.text_wrap import whole
-from rovercheck.checker.verify.result import Result
+from rovercheck.checker.commands.shared.told import ToldVerdict
+
+if TYPE_CHECKING:
+    from rovercheck.checker.certify.outcome import Outcome
 
 
 def writable(folder: Path) -> None:
@@ -26,21 +29,22 @@ def writable(folder: Path) -> None:
         raise UsageError(f"{reason}. Choose another --certificates.") from error
 
 
-def certified(found: Outcome | None) -> str:
+def certified(found: Mapping[str, str] | None) -> str:
     """What to add to the line of a verdict."""
     match found:
-        case None:
-            return ""
-        case Accepted():
+        case {"outcome": "accepted"}:
             return ", certified"
-        case Rejected(obligation):
+        case {"outcome": "rejected", "obligation": obligation}:
             return f", CERTIFICATE REJECTED ({obligation})"
-        case Undecided(reason):
+        case {"outcome": "undecided", "reason": reason}:
             return f", not certified: {reason}"
+    return ""
 
 
-def outcome(found: Outcome | None) -> dict[str, str] | None:
+def outcome(found: "Outcome | None") -> dict[str, str] | None:
     """The same for machines; None where nothing was to be certified."""
+    from rovercheck.checker.certify.outcome import Accepted, Rejected, Undecided
+
     match found:
         case None:
             return None
@@ -52,21 +56,21 @@ def outcome(found: Outcome | None) -> dict[str, str] | None:
             return {"outcome": "undecided", "reason": reason}
 
 
-def certificates(found: Sequence[Result]) -> None:
+def certificates(found: Sequence[ToldVerdict]) -> None:
     """How many proofs were certified; each that was rejected, loudly."""
-    outcomes = [r.certificate for r in found]
-    accepted, undecided = (sum(isinstance(o, kind) for o in outcomes) for kind in (Accepted, Undecided))
+    outcomes = [one.certificate["outcome"] for one in found if one.certificate is not None]
+    accepted, undecided = outcomes.count("accepted"), outcomes.count("undecided")
     if accepted or undecided:
         left = f", {undecided} not certified" if undecided else ""
         out.print(f"{accepted} proof{'s' * (accepted != 1)} certified{left}.", markup=False)
     for one in found:
-        if isinstance(one.certificate, Rejected):
+        if one.certificate is not None and one.certificate["outcome"] == "rejected":
             err.print(_alarm(one, one.certificate), markup=False)
 
 
-def _alarm(result: Result, rejected: Rejected) -> str:
+def _alarm(one: ToldVerdict, rejected: Mapping[str, str]) -> str:
     return (
-        f"Internal error: the proof of {result.property.id} by {result.verdict.engine} is WRONG: its "
-        f"certificate does not meet the obligation {rejected.obligation!r} ({rejected.shown}). "
+        f"Internal error: the proof of {one.id} by {one.engine} is WRONG: its "
+        f"certificate does not meet the obligation {rejected['obligation']!r} ({rejected['shown']}). "
         "Do not rely on this verdict; please report it with the command."
     )

@@ -1,17 +1,16 @@
 """Verdicts as JSON, as ``rovercheck check --json`` prints them (``checker/schemas/check-1.json``)."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from typing_extensions import TypedDict
 
-from rovercheck.checker.commands.check.certificates import outcome
-from rovercheck.checker.commands.check.chain_status import ChainStatus
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.told import ToldVerdict, Word, worst
 from rovercheck.checker.io.document import Count, Text
-from rovercheck.checker.render.verdict_text import evidence
-from rovercheck.checker.verify.checked import CheckedProperty, length, worst
-from rovercheck.properties.expected import VerdictWord
+
+if TYPE_CHECKING:
+    from rovercheck.checker.commands.check.chain_status import ChainStatus
 
 Case = Literal["occurs", "never", "unknown"]
 CASE: dict[bool | None, Case] = {True: "occurs", False: "never", None: "unknown"}
@@ -39,7 +38,7 @@ class VerdictRow(TypedDict):
     requirements: list[str]
     system: str
     """The system that the verdict is about."""
-    verdict: VerdictWord
+    verdict: Word
     in_part: bool
     """Proved for some runs only; see the notes of the system."""
     engine: str
@@ -47,7 +46,7 @@ class VerdictRow(TypedDict):
     """What the verdict rests on, in words."""
     ticks: Count | None
     """The length of the run, if it rests on one."""
-    expected: VerdictWord
+    expected: Word
     """The verdict on record."""
     as_expected: bool
     certificate: dict[str, str] | None
@@ -78,10 +77,10 @@ class CheckDocument(TypedDict):
 
 
 def document(
-    found: Sequence[CheckedProperty],
+    found: Sequence[ToldVerdict],
     ended: Exit | None = None,
     faulty: bool = False,
-    chains: Sequence[ChainStatus] = (),
+    chains: Sequence["ChainStatus"] = (),
 ) -> CheckDocument:
     """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
 
@@ -91,7 +90,7 @@ def document(
         "schema": "rovercheck/check/1",
         "variant": found[0].variant if found else "",
         "complete": ended is None,
-        "exit": Exit.INTERNAL if faulty else worst(found) if ended is None else ended,
+        "exit": Exit.INTERNAL if faulty else worst([c.exit for c in found]) if ended is None else ended,
         "chains": [
             {
                 "promise": one.promise.id,
@@ -101,28 +100,27 @@ def document(
             }
             for one in chains
         ],
-        "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],
+        "results": [_row(c) for c in sorted(found, key=lambda c: c.id)],
     }
 
 
-def _row(compared: CheckedProperty) -> VerdictRow:
-    prop, verdict = compared.result.property, compared.verdict
+def _row(one: ToldVerdict) -> VerdictRow:
     return {
-        "id": prop.id,
-        "text": prop.text,
-        "requirements": list(prop.covers),
-        "system": compared.result.system,
-        "verdict": verdict.word,
-        "in_part": compared.result.in_part,
-        "engine": verdict.engine,
-        "evidence": evidence(compared.result),
-        "ticks": length(verdict),
-        "expected": compared.expected.verdict,
-        "as_expected": compared.as_expected,
-        "certificate": outcome(compared.result.certificate),
-        "case": None if compared.case is None else CASE[compared.case.occurs],
-        "noticed": compared.noticed,
-        "because": compared.expected.because,
+        "id": one.id,
+        "text": one.text,
+        "requirements": list(one.covers),
+        "system": one.system,
+        "verdict": one.word,
+        "in_part": one.in_part,
+        "engine": one.engine,
+        "evidence": one.evidence,
+        "ticks": one.ticks,
+        "expected": one.expected,
+        "as_expected": one.as_expected,
+        "certificate": None if one.certificate is None else dict(one.certificate),
+        "case": CASE[one.occurs] if one.asked else None,
+        "noticed": one.noticed,
+        "because": one.because,
     }
 
 

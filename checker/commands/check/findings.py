@@ -12,13 +12,11 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.text_wrap import whole
-from rovercheck.properties.forms import Property, Reachable
-from rovercheck.spec_model.lang.system import System
+from rovercheck.checker.commands.shared.told import ToldVerdict
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import ChainStatus
     from rovercheck.checker.model.variant import Variant
-    from rovercheck.checker.verify.checked import CheckedProperty
 
 REPORTS = Path("reports/README.md")
 
@@ -65,15 +63,18 @@ def program() -> str:
 
 def causes(variant: "Variant") -> str:
     """The page that tells the causes of the findings on the rover as specified, where it is at hand."""
-    there = variant.own is None and not variant.name and REPORTS.is_file()
-    return str(REPORTS) if there else ""
+    return causes_of_rover() if variant.own is None and not variant.name else ""
 
 
-def totals(found: Sequence["CheckedProperty"]) -> str:
+def causes_of_rover() -> str:
+    """The same page of the rover as specified."""
+    return str(REPORTS) if REPORTS.is_file() else ""
+
+
+def totals(found: Sequence[ToldVerdict]) -> str:
     """``337 demands: 244 proved, 93 violated; 156 situations: all reached.``"""
-    kinds = [(one, isinstance(one.result.property.form, Reachable)) for one in found]
-    demands = [_word(one) for one, situation in kinds if not situation]
-    situations = [_word(one) for one, situation in kinds if situation]
+    demands = [_word(one) for one in found if not one.situation]
+    situations = [_word(one) for one in found if one.situation]
     parts = [
         f"{counted(len(words), *names)}: {_shares(words, called)}"
         for words, names, called in (
@@ -85,8 +86,8 @@ def totals(found: Sequence["CheckedProperty"]) -> str:
     return "; ".join(parts) + "."
 
 
-def _word(one: "CheckedProperty") -> str:
-    return RESTRICTED if one.result.in_part else one.verdict.word
+def _word(one: ToldVerdict) -> str:
+    return RESTRICTED if one.in_part else one.word
 
 
 def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
@@ -96,24 +97,24 @@ def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
     return ", ".join(f"{counts[word]} {said}" for word, said in called.items() if word in counts)
 
 
-def about_cases(found: Sequence["CheckedProperty"]) -> Iterator[str]:
+def about_cases(found: Sequence[ToldVerdict]) -> Iterator[str]:
     """Which proofs have a premise that never occurs, or of which that is unknown."""
-    told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
-    empty = [prop for prop, occurs in told if occurs is False]
-    unknown = [prop.id for prop, occurs in told if occurs is None]
-    if told and not empty and not unknown and found[0].strict:
-        have = counted(len(told), "proof has", "proofs have")
+    asked = [one for one in found if one.asked]
+    empty = [one for one in asked if one.occurs is False]
+    unknown = [one.id for one in asked if one.occurs is None]
+    if asked and not empty and not unknown and found[0].strict:
+        have = counted(len(asked), "proof has", "proofs have")
         yield f"{have} a premise (whenever ..., then ...): it occurs."
     if empty:
         yield "Vacuous proofs, whose premise never occurs:"
-        yield from (f"  {prop.id}, {prop.on}: {prop.text}" for prop in empty)
+        yield from (f"  {one.id}, {one.on}: {one.text}" for one in empty)
     if unknown:
         yield f"Proved, unknown whether the premise occurs: {', '.join(unknown)}."
 
 
-def about_faults(found: Sequence["CheckedProperty"]) -> Iterator[str]:
+def about_faults(found: Sequence[ToldVerdict]) -> Iterator[str]:
     """Which proofs kill no known mutant."""
-    idle = sorted(one.result.property.id for one in found if one.idle)
+    idle = sorted(one.id for one in found if one.idle)
     noticing = sum(one.noticed is True for one in found)
     if noticing and not idle and found[0].strict:
         kill = counted(noticing, "proof kills", "proofs kill")
@@ -131,10 +132,10 @@ def about_chains(told: Sequence["ChainStatus"]) -> Iterator[str]:
         yield from (f"  {one.text}" for one in told if not one.holds)
 
 
-def read_on(found: Sequence["CheckedProperty"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
+def read_on(found: Sequence[ToldVerdict], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
-    known = gravest([one for one in found if one.as_expected or one.variant], systems, guide.gravest)
-    number = sum(one.verdict.word == "violated" for one in found)
+    known = gravest([one for one in found if one.as_expected or one.variant], guide.gravest)
+    number = sum(one.word == "violated" for one in found)
     if known:
         yield ""
         yield from listed(known)
@@ -143,21 +144,20 @@ def read_on(found: Sequence["CheckedProperty"], systems: Mapping[str, System], g
         yield from _commands(known, number, guide)
 
 
-def listed(ordered: Sequence["CheckedProperty"]) -> Iterator[str]:
+def listed(ordered: Sequence[ToldVerdict]) -> Iterator[str]:
     """The first findings, each in a line."""
     if len(ordered) > SHOWN:
         yield f"Violated, the gravest first, one for each requirement ({SHOWN} of {len(ordered)}):"
     else:
         yield "Violated, the gravest first:" if len(ordered) > 1 else "Violated:"
     for one in ordered[:SHOWN]:
-        prop = one.result.property
-        out_of_reach = "Cannot be reached: " if isinstance(prop.form, Reachable) else ""
-        yield f"  {prop.id}, {one.result.system}: {out_of_reach}{prop.text}"
+        out_of_reach = "Cannot be reached: " if one.situation else ""
+        yield f"  {one.id}, {one.system}: {out_of_reach}{one.text}"
 
 
-def _commands(known: Sequence["CheckedProperty"], number: int, guide: Guide) -> Iterator[str]:
+def _commands(known: Sequence[ToldVerdict], number: int, guide: Guide) -> Iterator[str]:
     """What to type, or to read, to see more of so many findings."""
-    if runs := [one.result.property.id for one in known if one.length is not None]:
+    if runs := [one.id for one in known if one.ticks is not None]:
         yield f"Tick by tick: {guide.command('trace', runs[0])}"
     page = guide.command("report", guide.chosen, "-o review.html")
     yield f"All {number} on one page: {page}" if number > 1 else f"On a page: {page}"
@@ -165,9 +165,7 @@ def _commands(known: Sequence["CheckedProperty"], number: int, guide: Guide) -> 
         yield f"Causes and proposed repairs: {guide.causes}"
 
 
-def gravest(
-    found: Sequence["CheckedProperty"], systems: Mapping[str, System], order: Sequence[str]
-) -> list["CheckedProperty"]:
+def gravest(found: Sequence[ToldVerdict], order: Sequence[str]) -> list[ToldVerdict]:
     """What is violated: for each requirement the gravest finding, in the order of the requirements, then for
     each the next, and so on.
 
@@ -177,16 +175,14 @@ def gravest(
     rank = {id: place for place, id in enumerate(order)}
     turns = Counter[int]()
     keyed = []
-    broken = (one for one in found if one.verdict.word == "violated")
-    for one in sorted(broken, key=lambda one: _within(one, systems)):
-        first = min((rank.get(id, len(rank)) for id in one.result.property.covers), default=len(rank))
+    broken = (one for one in found if one.word == "violated")
+    for one in sorted(broken, key=_within):
+        first = min((rank.get(id, len(rank)) for id in one.covers), default=len(rank))
         keyed.append(((turns[first], first), one))
         turns[first] += 1
     return [one for _, one in sorted(keyed, key=lambda pair: pair[0])]
 
 
-def _within(one: "CheckedProperty", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
+def _within(one: ToldVerdict) -> tuple[bool, int, int, str]:
     """What is graver of two findings about one requirement."""
-    prop: Property = one.result.property
-    charts = len(systems[one.result.system].charts) if one.result.system in systems else 0
-    return isinstance(prop.form, Reachable), -charts, one.length or sys.maxsize, prop.id
+    return one.situation, -one.charts, one.ticks or sys.maxsize, one.id

@@ -5,37 +5,24 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from rovercheck.checker.commands.check.certificates import certificates, certified
-from rovercheck.checker.commands.check.findings import (
-    ALONE,
-    Guide,
-    about_cases,
-    about_chains,
-    about_faults,
-    read_on,
-    totals,
-)
 from rovercheck.checker.commands.check.further import NOTHING_FURTHER, CheckExtras
+from rovercheck.checker.commands.check.text import CheckText
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import alarm, code_of, error_message
-from rovercheck.checker.commands.shared.output import err, out, wrapped
+from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.text_wrap import plain
+from rovercheck.checker.commands.shared.told import ToldVerdict, told
 from rovercheck.checker.commands.shared.verdicts import BY_DEFAULT, results
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.process.faults import Fault, has_listener, listening, report
-from rovercheck.checker.render.verdict_text import in_short, recorded
-from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.results.verdict import StoredRun, Unknown
 from rovercheck.checker.verify.checked import CheckedProperty, worst
+from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import expected
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
-
-EVIDENCE = 33
-"""The column in which the evidence of a verdict begins."""
-SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
 class ResultDelivery(Protocol):
@@ -48,13 +35,17 @@ def undelivered(found: Sequence[CheckedProperty], wanted: int, ended: str = "") 
     """No report beside what is printed."""
 
 
+def unkept(found: Sequence[ToldVerdict]) -> None:
+    """Nothing is kept of what was told."""
+
+
 @dataclass(frozen=True)
 class CheckRequest:
     """What is decided: properties of systems by name, and the verdict that each is expected to have.
 
     ``variant`` says how the charts differ from those specified.  What is asked ``further`` is asked of all
     that was found; with ``strict`` a proof is an error that speaks of a case that never occurs, or notices no
-    fault.
+    fault.  ``keep`` is called with what was told, once all is decided.
     """
 
     properties: Sequence[Property]
@@ -64,6 +55,18 @@ class CheckRequest:
     expected: Callable[[str], Expected] = expected
     further: CheckExtras = NOTHING_FURTHER
     strict: bool = False
+    keep: Callable[[Sequence[ToldVerdict]], None] = unkept
+
+    def compared(self, result: Result) -> CheckedProperty:
+        """A result beside the verdict that is expected; where they differ, a run that is kept is replayed."""
+        one = CheckedProperty(result, self.expected(result.property.id), self.variant)
+        if one.as_expected or isinstance(one.verdict, Unknown):
+            return one
+        if not isinstance(one.verdict.because, StoredRun):
+            return one
+        from rovercheck.checker.verify.runs.stored import again
+
+        return replace(one, result=again(result, self.systems))
 
     def checked(self, found: Sequence[CheckedProperty]) -> list[CheckedProperty]:
         """The same with what was asked further."""
@@ -80,21 +83,10 @@ class CheckRequest:
 
 
 @dataclass(frozen=True)
-class CheckOutput:
-    """How verdicts are told: with ``quiet`` only what is not as expected is printed.
+class CheckOutput(CheckText):
+    """How verdicts are told; ``deliver`` is called once at the end, however that comes."""
 
-    ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.
-    """
-
-    as_json: bool = False
-    quiet: bool = False
-    guide: Guide = ALONE
     deliver: ResultDelivery = undelivered
-
-    def each(self, one: CheckedProperty) -> None:
-        """Print a verdict as soon as it is there."""
-        if not self.as_json and not (self.quiet and one.code is Exit.AS_EXPECTED):
-            out.print(wrapped(line(one), EVIDENCE), markup=False)
 
 
 PRINTED = CheckOutput()
@@ -115,25 +107,17 @@ def check(request: CheckRequest, output: CheckOutput = PRINTED) -> Exit:
             closing(results(request.properties, request.systems, request.search, output.quiet)) as coming,
         ):
             for result in coming:
-                found.append(CheckedProperty(result, request.expected(result.property.id), request.variant))
-                output.each(found[-1])
+                found.append(request.compared(result))
+                output.each(told(found[-1], request.systems))
                 request.further.on_result(found[-1])
         request.further.keep(found)
         found, chains = request.checked(found), request.further.chains(found)
     except BaseException as error:
         return _ended(error, found, faults, wanted, output)
-    if output.as_json:
-        from rovercheck.checker.commands.check.document import document
-
-        print(json_text(document(found, chains=chains, faulty=bool(faults)), ascii=True))
-    elif not output.quiet:
-        out.print()
-        summary(found, output.guide)
-        about = *about_cases(found), *about_faults(found), *about_chains(chains)
-        _say(*about, *read_on(found, request.systems, output.guide))
-    elif request.strict:
-        wrong = [c for c in found if c.code is not Exit.AS_EXPECTED]
-        _say(*about_cases(wrong), *about_faults(wrong))
+    said = [told(c, request.systems) for c in found]
+    output.end(said, chains, bool(faults))
+    if not faults:
+        request.keep(said)
     output.deliver(found, wanted, _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)
 
@@ -152,8 +136,11 @@ def _ended(
     if output.as_json:
         from rovercheck.checker.commands.check.document import document
 
-        gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
-        print(json_text(document(found, code_of(error), gravest), ascii=True))
+        gravest, said = (
+            bool(faults) and not isinstance(error, KeyboardInterrupt),
+            [told(c, {}) for c in found],
+        )
+        print(json_text(document(said, code_of(error), gravest), ascii=True))
     output.deliver(found, wanted, " ".join(filter(None, (_why(error), _alarmed(faults)))))
     from rovercheck.checker.certify.file import Unwritable
 
@@ -163,11 +150,6 @@ def _ended(
         raise error
     err.print(f"Interrupted: {len(found)} of {wanted} properties decided.")
     return Exit.INTERRUPTED
-
-
-def _say(*texts: str) -> None:
-    for text in texts:
-        out.print(wrapped(text, 4), markup=False)
 
 
 def _alarmed(faults: Sequence[Fault]) -> str:
@@ -185,49 +167,3 @@ def _why(error: BaseException) -> str:
     if not isinstance(error, Exception):
         return ""
     return plain(str(error)) if code_of(error) is Exit.USAGE else error_message(error)
-
-
-def line(compared: CheckedProperty) -> str:
-    """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
-    verdict = compared.verdict
-    sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
-    model = "for a restricted model: " if compared.result.in_part else ""
-    text = f"{sign} {compared.result.property.id:<21} {verdict.word:<8} {model}{in_short(compared.result)}"
-    text += certified(compared.result.certificate)
-    if compared.as_expected:
-        return text + (", as expected" if verdict.word != "proved" else "")
-    return text + f"\n    {_other(compared)} {recorded(compared.expected)}"
-
-
-def _other(compared: CheckedProperty) -> str:
-    """What the verdict is compared with, in front of the expected verdict."""
-    return f"{compared.variant}; as specified it is" if compared.variant else "CHANGED: expected"
-
-
-def summary(found: Sequence[CheckedProperty], guide: Guide) -> None:
-    """Counts, and for each change what to do next."""
-    changed = [c for c in found if not c.as_expected]
-    out.print(totals(found), markup=False)
-    parts = sum(c.result.in_part for c in found)
-    if parts:
-        out.print(f"≈ {parts} of them for a restricted model: see the notes of their systems.", markup=False)
-    certificates([c.result for c in found])
-    if not changed:
-        out.print("Every verdict is as expected.")
-        return
-    if changed[0].variant:
-        out.print(f"{len(changed)} of them differ {changed[0].variant}.", markup=False)
-        return
-    for compared in changed:
-        _explain(compared, guide)
-
-
-def _explain(compared: CheckedProperty, guide: Guide) -> None:
-    prop, verdict = compared.result.property, compared.verdict
-    out.print(f"\n{prop.id} is {verdict.word}; expected: {recorded(compared.expected)}.", markup=False)
-    out.print(f"  {prop.text}", markup=False)
-    if isinstance(verdict, Violated) and isinstance(verdict.because, Trace):
-        fired = [a for t in verdict.because.ticks for a in t.transitions if a.order]
-        for transition in fired[-3:]:
-            out.print(f"  fired: {transition}", markup=False)
-        out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)

@@ -11,7 +11,7 @@ from pathlib import Path
 from rovercheck.checker.certify.file import Unwritable
 from rovercheck.checker.commands.check.findings import Guide
 from rovercheck.checker.commands.check.premises import LONG, cases, patient
-from rovercheck.checker.commands.check.run import summary
+from rovercheck.checker.commands.check.text import summary
 from rovercheck.checker.commands.report import PageOptions
 from rovercheck.checker.commands.report.causes import with_reasons
 from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
@@ -20,6 +20,7 @@ from rovercheck.checker.commands.report.rover import extras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.text_wrap import whole
+from rovercheck.checker.commands.shared.told import told
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import file_of, read
@@ -66,14 +67,14 @@ def report(
             found.append(CheckedProperty(result, variant.expected(result.property.id), variant.name))
         if options.explain:
             found = with_reasons(found, model.systems)
-        told = cases(found, model.systems, patient(search, LONG), known) if options.premises else {}
-        write(page(model, variant, found, options, told), output)
+        shown = cases(found, model.systems, patient(search, LONG), known) if options.premises else {}
+        write(page(model, variant, found, options, shown), output)
     except Unwritable as error:
         raise UsageError(str(error)) from error
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided; nothing was written.")
         return Exit.INTERRUPTED
-    summary(found, Guide(variant.options))
+    summary([told(one, model.systems) for one in found], Guide(variant.options))
     out.print(f"{whole(output)}: {counted(output.stat().st_size, 'byte', 'bytes')}.", markup=False)
     return worst(found)
 
@@ -83,12 +84,12 @@ def page(
     variant: Variant,
     found: Sequence[CheckedProperty],
     options: PageOptions,
-    told: Mapping[str, PremiseCase] | None = None,
+    cases_known: Mapping[str, PremiseCase] | None = None,
 ) -> str:
-    """The page on verdicts that were found; ``told`` says of cases of proofs whether they occur, by id."""
+    """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id."""
     own = extras(variant, found, not options.no_repairs) if model.path is None else Extras()
     graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
-    own = replace(own, premises=told or {}, graphs=graphs, undrawn=undrawn)
+    own = replace(own, premises=cases_known or {}, graphs=graphs, undrawn=undrawn)
     return render(
         reviewed(model, found, origin(model, variant, worst(found), options), own, not options.some)
     )

@@ -16,6 +16,7 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, write
 from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.commands.shared.text_wrap import whole
+from rovercheck.checker.commands.shared.told import told
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.explain.explanation import unexplained
 from rovercheck.checker.render import renderers
@@ -173,7 +174,7 @@ def _page(compared: CheckedProperty) -> str:
 
 
 def _index(found: Sequence[CheckedProperty]) -> str:
-    lines = ["# Verdicts", "", totals(found), ""]
+    lines = ["# Verdicts", "", totals([told(one, {}) for one in found]), ""]
     lines += [
         "- [Promises](promises.md)",
         "- [Charts](charts/README.md)",

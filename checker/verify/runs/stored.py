@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from rovercheck.checker.results.verdict import StoredRun, Violated
+from rovercheck.checker.results.verdict import StoredRun, Unknown, Violated
 from rovercheck.checker.store.verdict_json import Definite
 from rovercheck.checker.store.verdicts import StoredVerdict
 from rovercheck.checker.system.lowering_cache import lowered
+from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 from rovercheck.properties.reduce import reduce
@@ -30,6 +31,14 @@ def replayed(kept: StoredVerdict, prop: Property, systems: Mapping[str, System])
     except (ReplayError, ModelError, KeyError):
         return None
     return replace(kept.verdict, because=replace(trace, shortest=because.shortest))
+
+
+def again(result: Result, systems: Mapping[str, System]) -> Result:
+    """The result with its run replayed, where that can be done."""
+    if isinstance(result.verdict, Unknown):
+        return result
+    verdict = replayed(StoredVerdict(result.verdict, result.system), result.property, systems)
+    return result if verdict is None else replace(result, verdict=verdict)
 
 
 def _wants_run(kept: StoredVerdict, prop: Property) -> bool:

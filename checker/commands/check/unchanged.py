@@ -1,0 +1,108 @@
+"""What was told of the rover while nothing has changed: it is said again without reading a chart.
+
+All that was told is kept under one key of every file of rovercheck; where one differs, the verdicts are
+asked for one by one (``checker.store.verdicts``).
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from hashlib import sha256
+from typing import Any
+
+from rovercheck.checker.cache import entries
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import SearchOptions, SelectionOptions
+from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.store.tree import tree_key
+
+SCHEMA = "rovercheck/told/1"
+
+
+@dataclass(frozen=True)
+class ToldProperty:
+    """What is needed of a property to choose it: whether it takes long, and its system."""
+
+    on: str
+    costly: bool
+
+
+@dataclass(frozen=True)
+class ToldModel:
+    """What was told of a model: properties in their order, systems, requirements from the gravest on."""
+
+    properties: Mapping[str, ToldProperty]
+    systems: Sequence[str]
+    order: Sequence[str]
+    verdicts: Mapping[str, ToldVerdict]
+
+    def chosen(self, selection: SelectionOptions) -> list[ToldVerdict] | None:
+        """What was told of the selected properties; None where not all was, or a name means nothing here."""
+        if not set(selection.ids) <= self.properties.keys() or not set(selection.about) <= {*self.systems}:
+            return None
+        ids = dict.fromkeys(selection.ids) or [
+            id for id, one in self.properties.items() if selection.full or not one.costly
+        ]
+        asked = [id for id in ids if not selection.about or self.properties[id].on in selection.about]
+        known = [self.verdicts[id] for id in asked if id in self.verdicts]
+        return known if known and len(known) == len(asked) else None
+
+
+@dataclass(frozen=True)
+class ToldStore:
+    """Where that is kept, for the files as they were when the command began and for such searches."""
+
+    tree: str
+    name: str
+
+    @staticmethod
+    def now(search: SearchOptions) -> "ToldStore | None":
+        """For the files as they are now; None where they cannot be read."""
+        try:
+            tree = tree_key()
+        except OSError:
+            return None
+        asked = json.dumps([SCHEMA, tree, search.engine, search.timers, search.depth])
+        return ToldStore(tree, f"{sha256(asked.encode()).hexdigest()}-told-json")
+
+    def read(self) -> ToldModel | None:
+        """What was told; None if nothing was, or what is kept has no meaning."""
+        whole = entries.read(self.name, code=False)
+        if whole is None:
+            return None
+        try:
+            return _model(json.loads(whole))
+        except (ValueError, KeyError, TypeError, AttributeError):
+            return None
+
+    def add(self, model: ToldModel) -> None:
+        """Keep what was told now beside what was before, unless a file has changed meanwhile."""
+        before = self.read()
+        verdicts = {**(before.verdicts if before else {}), **model.verdicts}
+        try:
+            same = tree_key() == self.tree
+        except OSError:
+            return
+        if same:
+            whole = asdict(replace(model, verdicts=verdicts))
+            entries.write(self.name, json.dumps(whole, separators=(",", ":")).encode())
+
+
+def keepable(one: ToldVerdict) -> bool:
+    """Whether it would be told again: not what was open, or not asked."""
+    return one.word != "unknown" and not (one.asked and one.occurs is None)
+
+
+def _model(found: Any) -> ToldModel:
+    return ToldModel(
+        {str(id): ToldProperty(**row) for id, row in found["properties"].items()},
+        list(map(str, found["systems"])),
+        list(map(str, found["order"])),
+        {str(id): _verdict(row) for id, row in found["verdicts"].items()},
+    )
+
+
+def _verdict(row: Mapping[str, Any]) -> ToldVerdict:
+    codes = {name: Exit(row[name]) for name in ("code", "strict_code")}
+    lists = {name: tuple(row[name]) for name in ("covers", "fired")}
+    return ToldVerdict(**{**row, **codes, **lists})
