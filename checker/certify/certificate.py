@@ -48,19 +48,23 @@ class Certificate:
 
 
 def certificates(
-    system: TransitionSystem, goals: Sequence[Var], answers: Mapping[str, Answer], engine: str
+    system: TransitionSystem,
+    goals: Sequence[Var],
+    answers: Mapping[str, Answer],
+    engine: str,
+    most: int = MOST,
 ) -> list[Certificate]:
     """A certificate for each invariant in the answers, for the goals that it excludes.
 
     Call it where the answers were found, so that a large closed set stays where it is.  An answer without
     an invariant (an exhausted search that kept no closed set) gives none, nor does one with more than
-    ``MOST`` values.  Raises ``MemoryError``.
+    ``most`` values.  Raises ``MemoryError``.
     """
     claims: dict[object, tuple[Evidence, list[str]]] = {}
     for goal in goals:
         match answers.get(goal.name):
             case Unreachable(Exhausted(skipped=False, closed=ClosedSet() as closed) as because):
-                if len(closed) * len(closed.places) <= MOST:
+                if len(closed) * len(closed.places) <= most:
                     claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
             case Unreachable(Exhausted(skipped=False, diagram=shape)) if shape is not None:
                 claims.setdefault(id(shape), (_formula(shape, system), []))[1].append(goal.name)

@@ -52,7 +52,7 @@ def write(folder: Path, origin: CertificateOrigin, certificates: Sequence[Certif
 
     Raises ``Unwritable``; what was there before is then still there.
     """
-    data = json.dumps(_document(origin, certificates), separators=(",", ":")).replace('],"', '],\n"').encode()
+    data = _text(origin, certificates)
     plain = folder / f"{origin.system}-{origin.properties[0]}.json"
     packed = plain.with_name(f"{plain.name}.gz")
     target, other = (packed, plain) if len(data) >= LARGE else (plain, packed)
@@ -63,6 +63,16 @@ def write(folder: Path, origin: CertificateOrigin, certificates: Sequence[Certif
     except OSError as error:
         raise Unwritable(f"Cannot write {target}: {error.strerror}. The verdicts stand.") from error
     return target
+
+
+def packed(origin: CertificateOrigin, certificates: Sequence[Certificate]) -> bytes:
+    """The contents of a file, compressed."""
+    return gzip.compress(_text(origin, certificates), compresslevel=1, mtime=0)
+
+
+def _text(origin: CertificateOrigin, certificates: Sequence[Certificate]) -> bytes:
+    whole = json.dumps(_document(origin, certificates), separators=(",", ":"))
+    return whole.replace('],"', '],\n"').encode()
 
 
 def _document(origin: CertificateOrigin, certificates: Sequence[Certificate]) -> dict[str, object]:
@@ -91,7 +101,11 @@ def _version() -> str:
 
 def read(path: Path) -> CertificateFile:
     """What a file says.  Raises ``Malformed`` for what is no file of certificates, ``OSError``."""
-    data = path.read_bytes()
+    return unpacked(path.read_bytes())
+
+
+def unpacked(data: bytes) -> CertificateFile:
+    """What the contents of a file say.  Raises ``Malformed`` for what is no file of certificates."""
     try:
         text = gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
         found = json.loads(text)

@@ -31,6 +31,11 @@ class CertificateReader:
     NAME: str = "certificate"
     SUMMARY: str = "answers from certificates that were checked"
 
+    @property
+    def ways(self) -> str:
+        """Who showed what was accepted."""
+        return "; ".join({o.how: None for o in self.outcomes.values() if isinstance(o, Accepted)})
+
     def check(
         self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
     ) -> Mapping[str, Answer]:

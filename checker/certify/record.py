@@ -5,7 +5,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from rovercheck.checker.certify.certificate import Certificate, certificates
+from rovercheck.checker.certify.certificate import MOST, Certificate, certificates
 from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
@@ -29,13 +29,15 @@ class Recorder:
     """
 
     made: list[Certificate] = field(default_factory=list)
+    most: int = MOST
+    """Values (states times variables) of a closed set of which one is made."""
 
     def answered(self, asked: CertifyRequest, found: Mapping[str, tuple[Answer, str]]) -> None:
         """Answers to a question, each with the name of the engine that gave it."""
         for engine in sorted({by for _, by in found.values()}):
             own = {name: answer for name, (answer, by) in found.items() if by == engine}
             with suppress(MemoryError):
-                self.made += certificates(asked.system, asked.goals, own, engine)
+                self.made += certificates(asked.system, asked.goals, own, engine, self.most)
 
 
 def rests_on_answers(verdict: Verdict) -> bool:

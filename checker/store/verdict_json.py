@@ -1,12 +1,12 @@
 """Verdicts as JSON: what they rest on, without the states of a search, and a run as its inputs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 from typing_extensions import TypedDict
 
 from rovercheck.checker.model.kept_runs import KeptRun, kept, row
-from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.trace import NecessaryInputs, Needed, Trace
 from rovercheck.checker.results.verdict import (
     Evidence,
     Exhausted,
@@ -34,9 +34,11 @@ class VerdictEntry(TypedDict):
     engine: str
     claim: str
     because: Mapping[str, Any]
+    together: list[str]
+    """The properties that were searched together; certificates are kept for all of them."""
 
 
-def entry(verdict: Definite, system: str) -> VerdictEntry:
+def entry(verdict: Definite, system: str, together: Sequence[str] = ()) -> VerdictEntry:
     """The verdict as JSON."""
     because = verdict.because
     return {
@@ -45,6 +47,7 @@ def entry(verdict: Definite, system: str) -> VerdictEntry:
         "engine": verdict.engine,
         "claim": verdict.claim if isinstance(verdict, Proved) else "",
         "because": _because(because, system),
+        "together": list(together),
     }
 
 
@@ -102,3 +105,18 @@ def _count(value: object) -> int | None:
     if value is None or isinstance(value, int):
         return value
     raise ValueError(f"{value!r} is no number")
+
+
+def necessary_row(found: NecessaryInputs) -> dict[str, Any]:
+    """The inputs that force the end of a run as JSON."""
+    needed = [[one.number, one.name, sorted(one.values)] for one in found.needed]
+    return {"needed": needed, "minimal": found.minimal, "smallest": found.smallest}
+
+
+def necessary_inputs(found: Mapping[str, Any]) -> NecessaryInputs:
+    """What was written.  Raises ``ValueError`` or the like for anything else."""
+    needed = [
+        Needed(int(number), str(name), frozenset(map(int, values)))
+        for number, name, values in found["needed"]
+    ]
+    return NecessaryInputs(tuple(needed), bool(found["minimal"]), bool(found["smallest"]))

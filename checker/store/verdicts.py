@@ -7,7 +7,7 @@ wrote or changed counts as missing.  What is unknown is never kept.
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from typing import Any
@@ -15,9 +15,10 @@ from typing import Any
 from rovercheck.checker.cache import entries
 from rovercheck.checker.cache.places import STORE
 from rovercheck.checker.engines import Limits
+from rovercheck.checker.results.trace import NecessaryInputs
 from rovercheck.checker.results.verdict import Verdict
 from rovercheck.checker.store.content import ContentKeys, NoKey
-from rovercheck.checker.store.verdict_json import Definite, entry, verdict
+from rovercheck.checker.store.verdict_json import Definite, entry, necessary_inputs, necessary_row, verdict
 from rovercheck.checker.store.versions import deciding
 from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.spec_model.lang.system import System
@@ -29,25 +30,26 @@ _LARGEST = 4 << 20
 
 @dataclass(frozen=True)
 class StoredVerdict:
-    """A verdict that is kept, and the name of the system that it is about."""
+    """A verdict that is kept, the name of the system that it is about, and what was searched with it."""
 
     verdict: Definite
     system: str
+    together: tuple[str, ...] = ()
 
 
 @dataclass
 class VerdictStore:
     """What is kept of verdicts that one engine, or engines in turn, found within a depth.
 
-    ``reading``: what is kept is believed; else it is only written.
+    ``recheck``: what is kept is not believed before its run is replayed, or its certificate checked.
     """
 
     asked: str
-    reading: bool = True
+    recheck: bool = False
     _keys: ContentKeys = field(default_factory=ContentKeys, repr=False)
 
     def __reduce__(self) -> tuple[object, ...]:
-        return VerdictStore, (self.asked, self.reading)
+        return VerdictStore, (self.asked, self.recheck)
 
     def question(self, prop: Property, systems: Mapping[str, System]) -> str | None:
         """The name of the entry about a property of systems as they are written; None where there is none."""
@@ -88,24 +90,46 @@ class VerdictStore:
 
     def read(self, name: str | None) -> StoredVerdict | None:
         """What is kept under a name; None where there is nothing that has a meaning."""
-        if name is None or not self.reading:
+        if name is None:
             return None
         whole = entries.read(name, code=False)
         if whole is None:
             return None
         try:
             found: Any = json.loads(whole)
-            return StoredVerdict(verdict(found), str(found["system"]))
+            return StoredVerdict(verdict(found), str(found["system"]), tuple(map(str, found["together"])))
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
 
-    def write(self, name: str | None, found: Verdict, system: str) -> None:
+    def write(self, name: str | None, found: Verdict, system: str, together: Sequence[str] = ()) -> None:
         """Keep a verdict, if it is one and not too large."""
         if name is None or not isinstance(found, Definite):
             return
-        whole = json.dumps(entry(found, system), separators=(",", ":")).encode()
+        whole = json.dumps(entry(found, system, together), separators=(",", ":")).encode()
         if len(whole) <= _LARGEST:
             entries.write(name, whole)
+
+    def necessary(self, name: str | None) -> NecessaryInputs | None:
+        """The inputs that force the end of a run, as they are kept under a name."""
+        whole = None if name is None or self.recheck else entries.read(name, code=False)
+        try:
+            return None if whole is None else necessary_inputs(json.loads(whole))
+        except (ValueError, KeyError, TypeError, AttributeError):
+            return None
+
+    def write_necessary(self, name: str | None, found: NecessaryInputs) -> None:
+        """Keep the inputs that force the end of a run."""
+        if name is not None:
+            entries.write(name, json.dumps(necessary_row(found), separators=(",", ":")).encode())
+
+    def read_proof(self, name: str | None) -> bytes | None:
+        """The certificates that are kept under a name."""
+        return None if name is None else entries.read(name, code=False)
+
+    def write_proof(self, name: str | None, certificates: bytes) -> None:
+        """Keep certificates, unless they are too large."""
+        if name is not None and len(certificates) <= _LARGEST:
+            entries.write(name, certificates)
 
     def remove(self, name: str | None) -> None:
         """Keep nothing under a name."""
@@ -113,11 +137,11 @@ class VerdictStore:
             entries.remove(name)
 
 
-def store(engine: object, limits: Limits, reading: bool = True) -> VerdictStore | None:
+def store(engine: object, limits: Limits, recheck: bool = False) -> VerdictStore | None:
     """The store of what such searches find; None where verdicts are not kept, and for an engine of a user's.
 
     Seconds and memory do not matter: what they end is unknown.
     """
     if not isinstance(engine, str) or os.environ.get(STORE) == "":
         return None
-    return VerdictStore(f"{engine} {limits.timers} {limits.depth} {limits.transitions}", reading)
+    return VerdictStore(f"{engine} {limits.timers} {limits.depth} {limits.transitions}", recheck)

@@ -79,8 +79,7 @@ def _outcome(first: Result, again: Result, reader: CertificateReader) -> Outcome
         if isinstance(outcome, Rejected):
             return outcome
     if first.verdict.word == again.verdict.word and again.verdict.engine == reader.NAME:
-        hows = {o.how: None for o in reader.outcomes.values() if isinstance(o, Accepted)}
-        return Accepted("; ".join(hows))
+        return Accepted(reader.ways)
     undecided = [o for o in reader.outcomes.values() if isinstance(o, Undecided)]
     return undecided[0] if undecided else Undecided(_lacking(first.verdict, again.verdict, reader))
 

@@ -16,9 +16,9 @@ from rovercheck.checker.process.faults import Fault, described, is_fault
 from rovercheck.checker.process.faults import listening as attending
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.process.pool import GrantedTime
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Verdict, Violated
 from rovercheck.checker.system.formula_json import Tree
-from rovercheck.checker.system.initial import require_initial_tick
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.tasks import Task
@@ -28,22 +28,30 @@ from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from rovercheck.checker.certify.certificate import Certificate
-    from rovercheck.checker.store.verdicts import VerdictStore
+    from rovercheck.checker.store.verdicts import StoredVerdict, VerdictStore
     from rovercheck.checker.verify.certificates import Certification
     from rovercheck.checker.verify.portfolio.question import Found, PortfolioQuestion
+    from rovercheck.checker.verify.stored import StoredTask
 
+KEPT = 1 << 22
+"""Values of a closed set of which a certificate is kept: of a larger one it takes longer than the search."""
 _PAUSE = 0.5
 """Seconds between two lines on what a search is doing."""
 
 
 @dataclass(frozen=True)
 class PropertyDecided:
-    """What travels of a result: the property by its id, and under which slice the store keeps it."""
+    """What travels of a result: the property by its id, and what the store keeps with it.
+
+    ``certificate``: of what was kept, how that was certified.
+    """
 
     id: str
     verdict: Verdict
     system: str
     slice: str | None = None
+    together: tuple[str, ...] = ()
+    certificate: Outcome | None = None
 
 
 @dataclass(frozen=True)
@@ -75,6 +83,8 @@ class SearchWorker:
         self._limits = limits
         self._certifying = certifying
         self._store = store
+        self._expected: dict[str, StoredVerdict] = {}
+        """What is kept of properties that are decided anew."""
 
     def __call__(
         self,
@@ -87,13 +97,14 @@ class SearchWorker:
         from rovercheck.checker.certify.file import Unwritable
         from rovercheck.checker.verify.portfolio import Disagreement
         from rovercheck.checker.verify.runs.replay import ReplayError
+        from rovercheck.checker.verify.stored import StoreContradiction
 
         try:
             with listening(send, anew=anew), attending(send):
                 self._search(send, Task(self._systems[name], properties, recorded))
         except (ModelError, ReplayError) as error:
             send(next(kind for kind in (ModelError, ReplayError) if isinstance(error, kind))(str(error)))
-        except (Disagreement, Unwritable) as error:
+        except (Disagreement, StoreContradiction, Unwritable) as error:
             send(error)
         except Exception as error:  # what is left of the task stays open
             if is_fault(error):
@@ -105,8 +116,10 @@ class SearchWorker:
         from rovercheck.checker.verify.decide import decide
         from rovercheck.checker.verify.portfolio import Callbacks
         from rovercheck.checker.verify.portfolio.question import stays
+        from rovercheck.checker.verify.stored import StoredTask
 
-        recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
+        recorder = Recorder() if self._certifying is not None else Recorder(most=KEPT)
+        results, deadline = list[Result](), self._limits.deadline()
         send(GrantedTime(self._limits.seconds, firm=True))
         send(Stage(f"lowering {task.system.name}"))
         if not any(
@@ -115,7 +128,7 @@ class SearchWorker:
             send(StaysInDomains())
 
         def answered(question: "PortfolioQuestion", found: "Found") -> None:
-            if self._certifying is not None:
+            if self._certifying is not None or self._store is not None:
                 recorder.answered(question, found)
             if (
                 task.system.name == question.system.name
@@ -124,45 +137,51 @@ class SearchWorker:
             ):
                 send(StaysInDomains())
 
-        slices = self._slices(task)
-        task = self._not_stored(send, task, slices)
-        if not task.properties:
-            return
+        stored = None
+        if self._store is not None and self._certifying is None:
+            stored = StoredTask.of(task, self._systems, self._store)
+            task = stored.without(self._told(send, stored))
+            if not task.properties:
+                return
         callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
         for one in decide(task, self._systems, self._engine, self._limits, callbacks, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
-            id = one.property.id
-            send(PropertyDecided(id, results[-1].verdict, one.system, slices.get(id)))
+            send(self._decided(results[-1], task, stored))
         callbacks.on_budget(None)
         if self._certifying is not None:
             self._certify(send, self._certifying, task, results, recorder.made)
+        elif stored is not None:
+            stored.keep_proofs(task, self._limits, results, recorder.made)
 
-    def _slices(self, task: Task) -> dict[str, str | None]:
-        """Under which names the store keeps what depends on the same slices, by property."""
-        if self._store is None:
-            return {}
-        require_initial_tick(lowered(task.system))
-        return {p.id: self._store.slice(p, self._systems) for p in task.properties}
+    def _told(self, send: Send, stored: "StoredTask") -> list[str]:
+        """Send what is kept of a task; the ids of these properties."""
+        assert self._store is not None
+        kept = {p.id: one for p in stored.task.properties if (one := stored.kept(p)) is not None}
+        shown = {id: one for id, one in kept.items() if isinstance(one.verdict.because, Trace)}
+        how: dict[str, Outcome | None] = dict.fromkeys(shown if self._store.recheck else kept)
+        if self._store.recheck:
+            how |= stored.certified({id: one for id, one in kept.items() if id not in shown}, self._limits)
+            self._expected = {id: one for id, one in kept.items() if id not in how}
+        for id, outcome in how.items():
+            one = kept[id]
+            send(PropertyDecided(id, one.verdict, one.system, stored.slices[id], one.together, outcome))
+        return list(how)
 
-    def _not_stored(self, send: Send, task: Task, slices: Mapping[str, str | None]) -> Task:
-        """What is left of a task after what is in the store; its runs are replayed."""
-        if self._store is None or self._certifying is not None:
-            return task
-        from rovercheck.checker.verify.runs.stored import replayed
+    def _decided(self, one: Result, task: Task, stored: "StoredTask | None") -> PropertyDecided:
+        """What travels of a result that was found.  Raises ``StoreContradiction``."""
+        from rovercheck.checker.verify.stored import StoreContradiction
 
-        left = []
-        for prop in task.properties:
-            for name in (self._store.question(prop, self._systems), slices[prop.id]):
-                kept = self._store.read(name)
-                verdict = None if kept is None else replayed(kept, prop, self._systems)
-                if kept is not None and verdict is not None:
-                    send(PropertyDecided(prop.id, verdict, kept.system, slices[prop.id]))
-                    break
-                if kept is not None:
-                    self._store.remove(name)
-            else:
-                left.append(prop)
-        return replace(task, properties=tuple(left))
+        id = one.property.id
+        if stored is None:
+            return PropertyDecided(id, one.verdict, one.system)
+        before = self._expected.get(id)
+        if before is not None and {before.verdict.word, one.verdict.word} == {"proved", "violated"}:
+            raise StoreContradiction(
+                f"{id} is kept as {before.verdict.word}, and decided anew it is {one.verdict.word}. Do not "
+                "rely on either; please report it with the command. With --no-store nothing kept is used."
+            )
+        together = tuple(p.id for p in task.properties)
+        return PropertyDecided(id, one.verdict, one.system, stored.slices[id], together)
 
     def _certify(
         self,

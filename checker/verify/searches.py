@@ -115,7 +115,7 @@ def stored(
     properties: Sequence[Property], systems: Mapping[str, System], search: SearchSettings
 ) -> Iterator[tuple[str, Result]]:
     """What is kept of the very same questions, by id, where it need not be replayed or certified."""
-    if search.store is None or search.certifying is not None:
+    if search.store is None or search.store.recheck or search.certifying is not None:
         return
     for prop in properties:
         if prop.on not in systems:
@@ -147,6 +147,7 @@ def searches(
     orders = [Order((task.system.name, task.properties, task.recorded), task.system.name) for task in todo]
     waiting = certifying is not None and certifying.again
     returns = [_Returns(task, waiting, limits.seconds) for task in todo]
+    asked = {prop.id: one for one in returns for prop in one.task.properties}
     keep = _Keeping(search.store, systems)
     gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
     warned: set[str] = set()
@@ -160,7 +161,7 @@ def searches(
                     if isinstance(one, MachineWarning):
                         warned.add(one.text)
                     if isinstance(one, Result):
-                        keep(one, back.slices.get(one.property.id))
+                        keep(one, *asked[one.property.id].kept.get(one.property.id, (None, ())))
                     yield one
         except BaseException as error:
             if not isinstance(error, GeneratorExit | ModelError):  # nothing that is said of the model
@@ -186,10 +187,10 @@ class _Keeping:
     store: "VerdictStore | None"
     systems: Mapping[str, System]
 
-    def __call__(self, one: Result, slice: str | None) -> None:
+    def __call__(self, one: Result, slice: str | None, together: Sequence[str]) -> None:
         if self.store is not None:
             for name in (self.store.question(one.property, self.systems), slice):
-                self.store.write(name, one.verdict, one.system)
+                self.store.write(name, one.verdict, one.system, together)
 
 
 class _Gate:
@@ -233,8 +234,9 @@ class _Returns:
         self._reported: dict[str, str] = {}
         self._taken = False
         self._anew = False
-        self.slices: dict[str, str | None] = {}
-        """The names under which the store keeps what depends on the same slices, by property."""
+        self.kept: dict[str, tuple[str | None, tuple[str, ...]]] = {}
+        """By property the name under which the store keeps what depends on the same slice, and what was
+        searched together."""
 
     def again(self) -> Order | None:
         """What to do after a crash: search with code compiled anew; None if that was not the cause.
@@ -277,9 +279,9 @@ class _Returns:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
             case PropertyDecided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
-            case PropertyDecided(id, verdict, system, slice):
-                self.slices[id] = slice
-                result = Result(self._left.pop(id), verdict, system)
+            case PropertyDecided(id, verdict, system, slice, together, certificate):
+                self.kept[id] = slice, together
+                result = Result(self._left.pop(id), verdict, system, certificate=certificate)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result
                 else:

@@ -143,8 +143,7 @@ def _outcome(one: Result, reader: CertificateReader) -> Outcome:
     if not isinstance(one.verdict, Unknown):
         if one.verdict.engine != reader.NAME:
             return Undecided(f"{one.verdict.engine} decides it, without a certificate")
-        ways = {o.how: None for o in reader.outcomes.values() if isinstance(o, Accepted)}
-        return Accepted("; ".join(ways))
+        return Accepted(reader.ways)
     for kind in (Rejected, Undecided):
         for outcome in reader.outcomes.values():
             if isinstance(outcome, kind):

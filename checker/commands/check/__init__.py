@@ -52,6 +52,7 @@ class CheckOptions:
     junit: Path | None
     sarif: Path | None
     annotations: str | None
+    recheck: bool
 
     @property
     def writes(self) -> bool:
@@ -121,6 +122,11 @@ class CheckOptions:
     help="Write the findings as SARIF 2.1.0, for code scanning and editors.",
 )
 @click.option(
+    "--recheck",
+    is_flag=True,
+    help="Believe no verdict that is kept: replay its run, or check its certificate.",
+)
+@click.option(
     "--annotations",
     type=click.Choice(["github"]),
     help="Annotate the lines of a pull request.",
@@ -176,7 +182,13 @@ def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
     """Where it is kept what is told of the rover as specified; None where something else is asked."""
     if charts != VariantOptions() or search.no_store or os.environ.get(STORE) == "":
         return None
-    if options.no_premises or options.certify or options.certificates or options.all_engines:
+    if (
+        options.recheck
+        or options.no_premises
+        or options.certify
+        or options.certificates
+        or options.all_engines
+    ):
         return None
     from rovercheck.checker.commands.check.unchanged import ToldStore
 
@@ -244,7 +256,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
         options.jobs,
         invariants_of(variant.model),
         certifying,
-        None if options.record_invariants else search.store(engine),
+        None if options.record_invariants else search.store(engine, options.recheck),
         traces=bool(options.junit or options.sarif or options.annotations),
     )
 

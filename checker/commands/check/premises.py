@@ -136,7 +136,7 @@ def _again(
 def _shown(case: Property, system: System, run: Run, store: "VerdictStore | None") -> Run | None:
     """The part of a run up to a case, if it shows that; one that did before is not gone through again."""
     name = store.about("case", case, system, run) if store is not None else None
-    before = store.read(name) if store is not None else None
+    before = store.read(name) if store is not None and not store.recheck else None
     if before is not None and isinstance(before.verdict.because, StoredRun):
         return before.verdict.because.run
     found = reached(system, [case], [run]).get(case.id)

@@ -64,7 +64,7 @@ class CheckRequest:
             return one
         if not isinstance(one.verdict.because, StoredRun):
             return one
-        from rovercheck.checker.verify.runs.stored import again
+        from rovercheck.checker.verify.stored import again
 
         return replace(one, result=again(result, self.systems))
 

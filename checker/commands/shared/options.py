@@ -94,11 +94,14 @@ class SearchOptions:
         limits = Limits(self.depth, self.timeout, timers=Timers(self.timers))
         return limits if memory is None else replace(limits, memory=int(memory * 2**30))
 
-    def store(self, engine: "str | Engine") -> "VerdictStore | None":
-        """Where verdicts of that engine are kept; None where they are not."""
+    def store(self, engine: "str | Engine", recheck: bool = False) -> "VerdictStore | None":
+        """Where verdicts of that engine are kept; None where they are not.
+
+        With ``recheck`` none is believed before its run is replayed, or its certificate checked.
+        """
         from rovercheck.checker.store.verdicts import store
 
-        return None if self.no_store else store(engine, self.limits())
+        return None if self.no_store else store(engine, self.limits(), recheck)
 
 
 Verb = Callable[..., Exit]

@@ -91,13 +91,14 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
 
     variant = charts.variant()
     wanted = trace_request(variant, options.id, options.state, options.transition, options.system)
+    engine = pick_engine(search.engine)
+    store = search.store(engine)
     showing = TraceDisplay(
         options.format,
         options.everything,
         options.output,
-        ExplanationOptions.chosen(options.explain),
+        ExplanationOptions.chosen(options.explain, store),
         options.witnesses,
         options.by,
     )
-    engine = pick_engine(search.engine)
-    return run(wanted, engine, search.limits(), showing, search.store(engine))
+    return run(wanted, engine, search.limits(), showing, store)

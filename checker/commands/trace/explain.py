@@ -1,14 +1,19 @@
 """Explaining a trace while a user waits: with progress, a limit of time, and Ctrl-C at any moment."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import process_time
+from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from rovercheck.checker.store.verdicts import VerdictStore
 
 SECONDS = 10.0
 """Of computing, for an explanation that was not asked for: however busy the machine, it is the same."""
@@ -18,17 +23,18 @@ SECONDS = 10.0
 class ExplanationOptions:
     """Whether the cause of a violation is looked for, and for how long (None: as long as it takes).
 
-    With ``quiet`` there is no progress line.
+    With ``quiet`` there is no progress line.  A cause that is in the ``store`` is not looked for again.
     """
 
     wanted: bool = True
     seconds: float | None = SECONDS
     quiet: bool = False
+    store: "VerdictStore | None" = None
 
     @staticmethod
-    def chosen(asked: bool | None) -> "ExplanationOptions":
+    def chosen(asked: bool | None, store: "VerdictStore | None" = None) -> "ExplanationOptions":
         """From what a user wrote: --explain, --no-explain or neither."""
-        return ExplanationOptions(asked is not False, None if asked else SECONDS)
+        return ExplanationOptions(asked is not False, None if asked else SECONDS, store=store)
 
     def __call__(self, trace: Trace, prop: Property, systems: Mapping[str, System]) -> Trace:
         """The trace with its cause, or as it is, with a word on why, after Ctrl-C too."""
@@ -43,16 +49,22 @@ class ExplanationOptions:
         if why := unexplained(trace):
             err.print(f"The cause is not looked for: {why}.", markup=False)
             return trace
-        start, task = process_time(), f"{prop.id}: cause"
+        start, task, system = process_time(), f"{prop.id}: cause", systems[trace.system.name]
+        name = self.store.about("cause", prop, system, run_in(trace)) if self.store is not None else None
+        if self.store is not None and (known := self.store.necessary(name)) is not None:
+            return replace(trace, necessary=known)
         try:
             with Watch(err, 1, self.quiet) as watch:
-                return explained(
+                found = explained(
                     trace,
                     prop,
-                    systems[trace.system.name],
+                    system,
                     lambda line: watch.say(task, line),
                     lambda: self.seconds is not None and process_time() - start > self.seconds,
                 )
+            if self.store is not None and found.necessary is not None and found.necessary.minimal:
+                self.store.write_necessary(name, found.necessary)
+            return found
         except OutOfTime as late:
             err.print(f"The cause is not known: {late}. Wait for it with --explain.", markup=False)
         except KeyboardInterrupt:

@@ -1,0 +1,136 @@
+"""What an earlier search found, in the place of a new one: runs replayed, and on request proofs certified."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from rovercheck.checker.certify.certificate import Certificate
+from rovercheck.checker.certify.check import CheckEffort, check
+from rovercheck.checker.certify.file import CertificateFile, CertificateOrigin, packed, unpacked
+from rovercheck.checker.certify.outcome import Accepted
+from rovercheck.checker.certify.reader import CertificateReader
+from rovercheck.checker.certify.record import rests_on_answers
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.results.verdict import StoredRun, Unknown, Violated
+from rovercheck.checker.store.verdict_json import Definite
+from rovercheck.checker.store.verdicts import StoredVerdict, VerdictStore
+from rovercheck.checker.system.initial import require_initial_tick
+from rovercheck.checker.system.lowering_cache import lowered
+from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.runs.replay import ReplayError, replay
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.forms import Property, Reachable, Unbounded
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+
+EFFORT = CheckEffort(seconds=60)
+"""For each certificate that is checked once more: what takes longer is decided anew."""
+
+
+class StoreContradiction(Exception):
+    """What is kept and what is found anew cannot both be so: an internal error, or a forged entry."""
+
+
+@dataclass(frozen=True)
+class StoredTask:
+    """A task, and what is kept of its properties.
+
+    ``slices`` are the names under which the store keeps what depends on the same slices.
+    """
+
+    task: Task
+    systems: Mapping[str, System]
+    store: VerdictStore
+    slices: Mapping[str, str | None]
+
+    @staticmethod
+    def of(task: Task, systems: Mapping[str, System], store: VerdictStore) -> "StoredTask":
+        """Raises ``ModelError`` for a system that has no run or is not well formed."""
+        require_initial_tick(lowered(task.system))
+        return StoredTask(task, systems, store, {p.id: store.slice(p, systems) for p in task.properties})
+
+    def kept(self, prop: Property) -> StoredVerdict | None:
+        """The verdict that is kept, its run replayed; what cannot be replayed is kept no longer."""
+        for name in (self.store.question(prop, self.systems), self.slices[prop.id]):
+            found = self.store.read(name)
+            verdict = None if found is None else replayed(found, prop, self.systems)
+            if found is not None and verdict is not None:
+                return replace(found, verdict=verdict)
+            if found is not None:
+                self.store.remove(name)
+        return None
+
+    def without(self, done: Sequence[str]) -> Task:
+        """What is left of the task."""
+        return replace(self.task, properties=tuple(p for p in self.task.properties if p.id not in done))
+
+    def keep_proofs(
+        self, task: Task, limits: Limits, results: Sequence[Result], made: Sequence[Certificate]
+    ) -> None:
+        """Keep the certificates of what a search has proved."""
+        proved = tuple(r.property.id for r in results if rests_on_answers(r.verdict))
+        if proved and made:
+            origin = CertificateOrigin(
+                task.system.name, tuple(p.id for p in task.properties), proved, {}, timers=limits.timers.value
+            )
+            self.store.write_proof(self._proof(task.properties), packed(origin, made))
+
+    def certified(self, kept: Mapping[str, StoredVerdict], limits: Limits) -> Iterator[tuple[str, Accepted]]:
+        """Those of the proofs that are kept which their certificates show, by id, with who showed it."""
+        by_id = {p.id: p for p in self.task.properties}
+        for together in dict.fromkeys(one.together for one in kept.values()):
+            asked = tuple(by_id[id] for id in together if id in by_id)
+            reader = self._reader(asked) if len(asked) == len(together) else None
+            if reader is None:
+                continue
+            for one in decide(Task(self.task.system, asked), self.systems, reader, limits):
+                before = kept.get(one.property.id)
+                shown = one.verdict.engine == reader.NAME
+                if shown and before is not None and before.verdict.word == one.verdict.word:
+                    yield one.property.id, Accepted(reader.ways)
+
+    def _reader(self, together: Sequence[Property]) -> CertificateReader | None:
+        whole = self.store.read_proof(self._proof(together))
+        if whole is None:
+            return None
+        try:
+            found: CertificateFile = unpacked(whole)
+        except Malformed:
+            return None
+        return CertificateReader(found.certificates, lambda one, system: check(one, system, EFFORT))
+
+    def _proof(self, together: Sequence[Property]) -> str | None:
+        return self.store.about("proof", self.task.system, *together)
+
+
+def replayed(kept: StoredVerdict, prop: Property, systems: Mapping[str, System]) -> Definite | None:
+    """The verdict that is kept, its run replayed; None where the run does not show it.
+
+    A run without end is not replayed but looked for again, and so is one that shows more than a run can.
+    """
+    because = kept.verdict.because
+    if not isinstance(because, StoredRun):
+        return None if _rests_on_run(kept, prop) else kept.verdict
+    if isinstance(prop.form, Unbounded) or kept.system not in systems or not _rests_on_run(kept, prop):
+        return None
+    question = reduce(lowered(systems[kept.system]), [replace(prop, on=kept.system)])
+    try:
+        trace = replay(question.system, question.goals[0], because.run)
+    except (ReplayError, ModelError, KeyError):
+        return None
+    return replace(kept.verdict, because=replace(trace, shortest=because.shortest))
+
+
+def again(result: Result, systems: Mapping[str, System]) -> Result:
+    """The result with its run replayed, where that can be done."""
+    if isinstance(result.verdict, Unknown):
+        return result
+    verdict = replayed(StoredVerdict(result.verdict, result.system), result.property, systems)
+    return result if verdict is None else replace(result, verdict=verdict)
+
+
+def _rests_on_run(kept: StoredVerdict, prop: Property) -> bool:
+    """Whether such a verdict on such a property rests on a run: a counterexample, or a witness."""
+    return isinstance(kept.verdict, Violated) != isinstance(prop.form, Reachable)
