@@ -88,7 +88,7 @@ def run(arguments: list[str]) -> Exit:
 
 def _run(arguments: list[str]) -> Exit:
     try:
-        code: object = app.main(arguments, prog_name="rovercheck", standalone_mode=False)
+        code: object = app.main(arguments, prog_name="rovercheck", standalone_mode=False, obj=arguments)
         if sys.stdout is not None:
             sys.stdout.flush()
         return code if isinstance(code, Exit) else Exit.AS_EXPECTED

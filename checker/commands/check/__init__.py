@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from rovercheck.checker.commands.shared.told import ToldVerdict
     from rovercheck.checker.model.variant import Variant
     from rovercheck.checker.verify.searches import SearchSettings
+    from rovercheck.properties.forms import Property
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,8 @@ class CheckOptions:
     sarif: Path | None
     annotations: str | None
     recheck: bool
+    changed: str | None
+    watch: bool
 
     @property
     def writes(self) -> bool:
@@ -62,6 +65,8 @@ class CheckOptions:
 
     def possible(self) -> None:
         """Raises ``UsageError`` for options that exclude each other."""
+        if self.watch and (self.as_json or self.writes or self.certificates):
+            raise UsageError("--watch tells what changes and writes no file; leave the other options out.")
         if self.no_premises and (self.strict or self.record_premises):
             other = "--strict" if self.strict else "--record-premises"
             raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
@@ -127,6 +132,14 @@ class CheckOptions:
     help="Believe no verdict that is kept: replay its run, or check its certificate.",
 )
 @click.option(
+    "--changed",
+    is_flag=False,
+    flag_value="HEAD",
+    metavar="[REV]",
+    help="Only what depends on what has changed since a git revision; by default the last commit.",
+)
+@click.option("--watch", is_flag=True, help="Check again whenever a file is saved, and tell what changes.")
+@click.option(
     "--annotations",
     type=click.Choice(["github"]),
     help="Annotate the lines of a pull request.",
@@ -140,6 +153,10 @@ def check(
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     options.possible()
+    if options.watch:
+        from rovercheck.checker.commands.check.watch import watch
+
+        return watch(_without_watch(), charts.model)
     kept = _kept(options, charts, search)
     if kept is not None and (code := _unchanged(kept, selection, options)) is not None:
         return code
@@ -153,7 +170,15 @@ def check(
 
         variant = charts.variant()
         properties = selection.properties(variant)
-        chains = _chains(variant) if selection.whole and (selection.full or variant.name) else None
+        if options.changed is not None:
+            properties = _changed(properties, options.changed, variant)
+            if not properties:
+                return Exit.AS_EXPECTED
+        chains = (
+            _chains(variant)
+            if not options.changed and selection.whole and (selection.full or variant.name)
+            else None
+        )
         if chains is not None:
             more = *properties, *variant.promised(), *chains.links.values()
             properties = list({p.id: p for p in more}.values())
@@ -178,12 +203,34 @@ def check(
         )
 
 
+def _without_watch() -> list[str]:
+    """The arguments of this command, without --watch."""
+    given: list[str] = click.get_current_context().find_root().obj
+    return [word for word in given[given.index("check") + 1 :] if word != "--watch"]
+
+
+def _changed(properties: "Sequence[Property]", revision: str, variant: "Variant") -> "list[Property]":
+    """Those of the properties that depend on what has changed since a revision; says how many."""
+    from rovercheck.checker.commands.check.changed import changed_since
+    from rovercheck.checker.commands.shared.output import counted, err
+
+    if variant.name:
+        raise UsageError(f"--changed compares the charts as specified, not {variant.name}; leave one out.")
+    concerned = changed_since(revision, variant)
+    found = [prop for prop in properties if prop.id in concerned]
+    many = f"{len(found)} of {counted(len(properties), 'property', 'properties')}"
+    verb = "depends" if len(found) == 1 else "depend"
+    err.print(f"{many} {verb} on what has changed since {revision}.", markup=False)
+    return found
+
+
 def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) -> "ToldStore | None":
     """Where it is kept what is told of the rover as specified; None where something else is asked."""
     if charts != VariantOptions() or search.no_store or os.environ.get(STORE) == "":
         return None
     if (
         options.recheck
+        or options.changed
         or options.no_premises
         or options.certify
         or options.certificates
