@@ -57,9 +57,9 @@ class SearchSettings:
 
 @dataclass(frozen=True)
 class SearchesPlanned:
-    """How many searches there will be."""
+    """The titles of the searches there will be."""
 
-    searches: int
+    titles: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ def events(
     # The largest first, so that no long search is left for the end; those of one system together.
     planned = (replace(t, recorded=on_record(t, search.invariants)) for t in tasks(left, systems))
     todo = sorted(planned, key=lambda t: (-t.size, t.system.name, t.title))
-    yield SearchesPlanned(len(todo))
+    yield SearchesPlanned(tuple(task.title for task in todo))
     yield from (limited(one, systems) for one in known.values())
     with closing(searches(todo, systems, search)) as heard:
         for one in heard:

@@ -81,7 +81,7 @@ def test_whoever_ends_it_in_the_middle_gets_what_was_found(number: signal.Signal
         env={**os.environ, "MARK": mark},
     )  # fmt: skip
     assert child.stderr is not None
-    said = next(line for line in child.stderr if "searches done" in line)
+    said = next(line for line in child.stderr if "so far" in line)
     os.killpg(child.pid, number)
     shown, rest = child.communicate(timeout=60)
     said += rest

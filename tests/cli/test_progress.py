@@ -1,4 +1,4 @@
-"""The progress line: how many searches are done, and what each of the others does."""
+"""The progress line: how much is done, since when, and what is under way."""
 
 import io
 from pathlib import Path
@@ -10,12 +10,12 @@ from rich.console import Console
 from rovercheck.checker.cli import app, run
 from rovercheck.checker.commands.shared import progress
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.progress import Watch
-from rovercheck.checker.commands.shared.silence import silence
+from rovercheck.checker.commands.shared.progress import SearchWatch, Watch
+from rovercheck.checker.commands.shared.silence import say_more, silence
 
 
 def watch() -> Watch:
-    made = Watch(Console(file=io.StringIO()), 5)
+    made = Watch(Console(file=io.StringIO()), 5, of="graphs")
     made.say("relay PB1-11", "explicit: 20,000 states, depth 7")
     made.say("board1 PB1-15", "bmc: depth 12")
     return made
@@ -23,7 +23,8 @@ def watch() -> Watch:
 
 def test_the_line_tells_what_every_search_does() -> None:
     expected = (
-        "0/5 searches done | relay PB1-11: explicit: 20,000 states, depth 7 | board1 PB1-15: bmc: depth 12"
+        "0 of 5 graphs, 0 s so far | relay PB1-11: explicit: 20,000 states, depth 7 | "
+        "board1 PB1-15: bmc: depth 12"
     )
     assert watch().line() == expected
 
@@ -31,13 +32,13 @@ def test_the_line_tells_what_every_search_does() -> None:
 def test_what_is_over_is_counted_and_no_longer_shown() -> None:
     made = watch()
     made.finished("relay PB1-11")
-    assert made.line() == "1/5 searches done | board1 PB1-15: bmc: depth 12"
+    assert made.line() == "1 of 5 graphs, 0 s so far | board1 PB1-15: bmc: depth 12"
 
 
 @pytest.mark.parametrize("width", [20, 40, 80])
 def test_on_a_terminal_every_search_has_its_share_of_the_width(width: int) -> None:
     line = watch().line(width)
-    assert len(line) <= width and line.startswith("0/5 searches done")
+    assert len(line) <= width and line.startswith("0 of 5 graphs")
     if width == 80:
         assert "relay" in line and "board1" in line
 
@@ -49,7 +50,7 @@ def test_a_log_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None
     made = Watch(Console(file=log), 2)
     for now[0] in (1.0, 9.0, 11.0, 12.0):
         made.say("relay [PB1-11]", "working")
-    assert log.getvalue().splitlines() == ["0/2 searches done | relay [PB1-11]: working"]
+    assert log.getvalue().splitlines() == ["0 of 2, 11 s so far | relay [PB1-11]: working"]
 
 
 class Dumb(io.StringIO):
@@ -65,7 +66,7 @@ def test_a_dumb_terminal_is_a_log(monkeypatch: pytest.MonkeyPatch) -> None:
     with Watch(Console(file=log, _environ={"TERM": "dumb"}), 2) as made:
         now[0] = 11.0
         made.say("relay", "working")
-    assert log.getvalue() == "0/2 searches done | relay: working\n"
+    assert log.getvalue() == "0 of 2, 11 s so far | relay: working\n"
 
 
 @pytest.mark.parametrize("quiet", [False, True])
@@ -94,3 +95,34 @@ def test_a_file_that_is_written_is_named_unless_nobody_wants_to_know(
         assert run(["graph", "Relay", "-o", str(target), *words]) is Exit.AS_EXPECTED
         seen = capsys.readouterr()
         assert (seen.out, seen.err) == ("", said)
+
+
+def test_a_check_counts_properties_and_says_how_long_it_will_take(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr(progress, "monotonic", lambda: now[0])
+    made = SearchWatch(Console(file=io.StringIO()), 12, False, {"relay PB1-11": 100.0, "rover X": 20.0}, 2)
+    made.plan(["relay PB1-11", "rover X", "new Y"])
+    made.say("relay PB1-11", "bmc: depth 24, 4 goals open")
+    now[0] = 40.0
+    assert made.line() == (
+        "0 of 12 properties, 40 s so far, about 1 min 0 s left | relay PB1-11: searching, 24 ticks deep"
+    )
+    made.over("relay PB1-11")
+    made.counted()
+    assert made.took == {"relay PB1-11": 40.0}
+    assert made.line() == "1 of 12 properties, 40 s so far, about 20 s left"
+
+
+def test_nothing_is_said_of_the_time_left_where_nothing_is_known_of_it() -> None:
+    made = SearchWatch(Console(file=io.StringIO()), 12, False, {"other": 1.0}, 2)
+    made.plan(["relay PB1-11", "rover X"])
+    assert made.line() == "0 of 12 properties, 0 s so far"
+
+
+def test_engines_speak_with_verbose_only() -> None:
+    made = SearchWatch(Console(file=io.StringIO()), 1, False, {}, 1)
+    with click.Context(click.Command("any")) as context:
+        for verbose, said in ((False, "searching, 24 ticks deep"), (True, "bmc: depth 24, 4 goals open")):
+            say_more(context, click.Option(["--verbose"]), verbose)
+            made.say("relay PB1-11", "bmc: depth 24, 4 goals open")
+            assert made.line().endswith(f"relay PB1-11: {said}")

@@ -25,18 +25,18 @@ MOVES = re.compile(r"\x1b\[[0-9;?]*[A-GHJKhl]")
 """Whatever moves the cursor, erases or changes the terminal."""
 COLOUR = re.compile(r"\x1b\[(?:\d+;)*(?:3[0-7]|9[0-7])m")
 SAID = {
-    "check": "searches done",
-    "trace": "searches done",
-    "requirements": "searches done",
-    "report": "searches done",
+    "check": "so far",
+    "trace": "so far",
+    "requirements": "so far",
+    "report": "so far",
     "certify": "file checked",
-    "graph": "searches done",
-    "reports": "searches done",
+    "graph": "so far",
+    "reports": "so far",
     "compare": "mismatches",
     "check-log": "2 of 2: good.csv",
     "simulate": " of 16 s",
     "generate-tests": "goals decided",
-    "explore": "searches done",
+    "explore": "so far",
 }
 """What the progress line of each verb says last."""
 
@@ -85,7 +85,7 @@ def test_every_verb_shows_at_any_width_what_it_says_into_a_pipe(
         ):
             at = f"{command}, {folder.name} columns"
             assert SAID[command.split()[0]] in raw, f"{at}: no progress is shown"
-            assert not [line for line in shown if SPINNER.search(line) or "searches done" in line], at
+            assert not [line for line in shown if SPINNER.search(line) or "so far" in line], at
             assert words(shown) == words(said), at
 
 
@@ -111,7 +111,7 @@ def test_results_go_into_a_file_and_progress_to_the_terminal(lift: str, tmp_path
             assert terminal.ended() == Exit.AS_EXPECTED
         file.seek(0)
         assert summary_of(file.read()) == lift
-    assert "searches done" in terminal.seen and terminal.shown() == [""] and terminal.clean
+    assert "so far" in terminal.seen and terminal.shown() == [""] and terminal.clean
 
 
 def test_results_go_to_the_terminal_and_messages_into_a_file(lift: str, tmp_path: Path) -> None:
@@ -136,7 +136,7 @@ def test_results_may_name_the_terminal_otherwise(lift: str) -> None:
     command = ["sh", "-c", f"{' '.join(CHECK)} > /dev/tty"]
     with Terminal(command) as terminal:
         assert terminal.ended() == Exit.AS_EXPECTED
-    assert "searches done" in terminal.seen
+    assert "so far" in terminal.seen
     assert summary_of("\n".join(terminal.shown())) == lift
 
 
@@ -149,7 +149,7 @@ def test_a_second_terminal_gets_results_alone(lift: str) -> None:
     while (more := _read(ours)) != b"":
         read += more
     os.close(ours)
-    assert "searches done" in terminal.seen and terminal.shown() == [""]
+    assert "so far" in terminal.seen and terminal.shown() == [""]
     assert not MOVES.search(read.decode()) and summary_of(read.decode().replace("\r", "")) == lift
 
 
@@ -179,7 +179,7 @@ def test_a_dumb_terminal_gets_plain_lines(lift: str, value: str) -> None:
 def test_no_color_leaves_the_progress_line() -> None:
     with Terminal(CHECK, environment={"NO_COLOR": "1"}) as terminal:
         assert terminal.ended() == Exit.AS_EXPECTED
-    assert "searches done" in terminal.seen and not COLOUR.search(terminal.seen)
+    assert "so far" in terminal.seen and not COLOUR.search(terminal.seen)
 
 
 # --- the end, however it comes --------------------------------------------------------------------
@@ -208,7 +208,7 @@ main()
 
 def test_ctrl_c_leaves_the_screen_clean() -> None:
     with Terminal(LONG) as terminal:
-        terminal.until("searches done")
+        terminal.until("so far")
         terminal.type("\x03")
         assert terminal.ended() == Exit.INTERRUPTED
     assert terminal.clean
@@ -219,7 +219,7 @@ def test_ctrl_c_leaves_the_screen_clean() -> None:
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_leaves_the_screen_clean(number: signal.Signals) -> None:
     with Terminal(LONG) as terminal:
-        terminal.until("searches done")
+        terminal.until("so far")
         terminal.send(number)
         assert terminal.ended() == Exit.INTERRUPTED
     assert terminal.clean
@@ -229,7 +229,7 @@ def test_a_signal_leaves_the_screen_clean(number: signal.Signals) -> None:
 
 def test_a_program_that_is_killed_or_stopped_has_hidden_no_cursor() -> None:
     with Terminal(LONG) as terminal:
-        terminal.until("searches done")
+        terminal.until("so far")
         terminal.send(signal.SIGKILL)
         assert terminal.ended() == -signal.SIGKILL
     assert not terminal.cursor_hidden

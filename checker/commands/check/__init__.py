@@ -21,6 +21,7 @@ from rovercheck.checker.commands.shared.options import (
     selecting,
     varying,
 )
+from rovercheck.checker.commands.shared.silence import say_more
 from rovercheck.checker.engines import ALL, AUTO, LOADED
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ class CheckOptions:
     record_invariants: bool
     as_json: bool
     quiet: bool
+    verbose: bool
     jobs: int | None
     memory: float
     all_engines: bool
@@ -92,6 +94,13 @@ class CheckOptions:
 )
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
+@click.option(
+    "--verbose",
+    "-v",
+    is_flag=True,
+    callback=say_more,
+    help="A line for every verdict, also on a terminal, and what the engines do.",
+)
 @click.option(
     "--jobs",
     type=click.IntRange(min=1),

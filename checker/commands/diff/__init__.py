@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import modelling, writing
+from rovercheck.checker.commands.shared.options import modelling, quietly, writing
 
 
 @click.command(short_help="Show which verdicts changed since a git revision.")
@@ -22,6 +22,7 @@ from rovercheck.checker.commands.shared.options import modelling, writing
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @modelling
 @writing
+@quietly
 def diff(
     before: str, after: str | None, form: str, full: bool, model: Path | None, output: Path | None
 ) -> Exit:

@@ -18,6 +18,7 @@ from rovercheck.checker.commands.diff.text import markdown, text
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, possible, write, wrote
 from rovercheck.checker.commands.shared.revisions import commit, exported, repository
+from rovercheck.checker.commands.shared.silence import silent
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.io.printable import json_text
 
@@ -107,8 +108,10 @@ def _tree(asked: DiffRequest, root: Path, folder: Path) -> CheckedTree:
 
 def _checked(tree: CheckedTree, name: str, full: bool) -> list[Any]:
     """The rows of a check."""
-    err.print(f"Checking {name or 'the working tree'} ...", markup=False)
-    said = tree.said("check", "--json", *(["--full"] if full else []))
+    if not silent():
+        err.print(f"Checking {name or 'the working tree'} ...", markup=False)
+    options = [*(["--full"] if full else []), *(["--quiet"] if silent() else [])]
+    said = tree.said("check", "--json", *options)
     try:
         found: Mapping[str, Any] = json.loads(said)
         return list(found["results"])

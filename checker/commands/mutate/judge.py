@@ -170,7 +170,7 @@ class _Stages:
         """The fates of mutants, round by round, while it is said what is being done."""
         if not planned:
             return
-        with Watch(err, len(planned)) as watch:
+        with Watch(err, len(planned), of="mutants") as watch:
             for some in rounds(planned):
                 known = [self.plan.with_runs(one, drawn) for one in some]
                 with closing(fates(known, self.search.limits, self.search.jobs, before, search)) as heard:

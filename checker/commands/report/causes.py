@@ -18,7 +18,7 @@ def with_reasons(found: Sequence[CheckedProperty], systems: Mapping[str, System]
     It takes as long as it takes: a limit of time would make the page depend on the machine.
     """
     broken = [c for c in found if _run(c) is not None]
-    with Watch(err, len(broken)) as watch:
+    with Watch(err, len(broken), of="findings") as watch:
         return [_with_reason(c, systems, watch) for c in found]
 
 

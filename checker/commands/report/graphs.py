@@ -45,7 +45,7 @@ def state_graphs(
     graphs: dict[str, StateGraphView] = {}
     undrawn: dict[str, str] = {}
     drawn: set[frozenset[str]] = set()
-    with Watch(err, len(wanted)) as watch:
+    with Watch(err, len(wanted), of="graphs") as watch:
         for system in wanted:
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:

@@ -4,7 +4,8 @@ from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 
 from rovercheck.checker.commands.shared.output import err
-from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.progress import SearchWatch
+from rovercheck.checker.store.times import keep_times, known_times
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import (
     MachineWarning,
@@ -12,6 +13,7 @@ from rovercheck.checker.verify.searches import (
     SearchEnd,
     SearchesPlanned,
     SearchSettings,
+    cores,
     events,
 )
 from rovercheck.properties.forms import Property
@@ -31,16 +33,19 @@ def results(
     With ``quiet``, nothing is said meanwhile.  On Ctrl-C the searches under way are ended and
     ``KeyboardInterrupt`` is raised.
     """
-    with closing(events(properties, systems, search)) as found, Watch(err, quiet=quiet) as watch:
+    watching = SearchWatch(err, len(properties), quiet, known_times(), search.jobs or cores())
+    with closing(events(properties, systems, search)) as found, watching as watch:
         for one in found:
             match one:
-                case SearchesPlanned(searches):
-                    watch.total = searches
+                case SearchesPlanned(titles):
+                    watch.plan(titles)
                 case SearchActivity(task, line):
                     watch.say(task.title, line)
                 case SearchEnd(task):
-                    watch.finished(task.title)
+                    watch.over(task.title)
                 case MachineWarning(text):
                     err.print(text, markup=False)
                 case Result():
+                    watch.counted()
                     yield one
+    keep_times(watching.took)
