@@ -64,7 +64,7 @@ def test_every_verb_shows_at_any_width_what_it_says_into_a_pipe(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cache: str
 ) -> None:
     """Nothing is glued to the progress line, no word is cut, and nothing is left of the line."""
-    known = {"PYTHONPATH": str(ROOT), "ROVERCHECK_CACHE": cache}
+    known = {"PYTHONPATH": str(ROOT), "ROVERCHECK_CACHE": cache, "ROVERCHECK_STORE": ""}
     folders = [tmp_path / name for name in ("pipe", "60", "120")]
     for folder in folders:
         folder.mkdir()

@@ -175,6 +175,7 @@ def check(
         from rovercheck.checker.commands.check.findings import Guide, causes
         from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest
         from rovercheck.checker.commands.check.run import check as run
+        from rovercheck.checker.commands.check.text import brief
         from rovercheck.checker.commands.shared.variant import askable
 
         variant = charts.variant()
@@ -208,7 +209,9 @@ def check(
                 options.strict,
                 _keeping(kept, variant),
             ),
-            CheckOutput(options.as_json, options.quiet, guide, deliver),
+            CheckOutput(
+                options.as_json, options.quiet, guide, brief(len(properties), options.verbose), deliver
+            ),
         )
 
 
@@ -260,12 +263,15 @@ def _unchanged(kept: "ToldStore", selection: SelectionOptions, options: CheckOpt
     if model is None or chosen is None:
         return None
     from rovercheck.checker.commands.check.findings import Guide, causes_of_rover
-    from rovercheck.checker.commands.check.text import CheckText
+    from rovercheck.checker.commands.check.text import CheckText, brief
     from rovercheck.checker.commands.shared.told import worst
 
     told = [replace(one, strict=options.strict) for one in chosen]
     text = CheckText(
-        options.as_json, options.quiet, Guide("", selection.again, model.order, causes_of_rover())
+        options.as_json,
+        options.quiet,
+        Guide("", selection.again, model.order, causes_of_rover()),
+        brief(len(told), options.verbose),
     )
     for one in told:
         text.each(one)

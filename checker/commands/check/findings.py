@@ -86,6 +86,23 @@ def totals(found: Sequence[ToldVerdict]) -> str:
     return "; ".join(parts) + "."
 
 
+def by_area(found: Sequence[ToldVerdict]) -> Iterator[str]:
+    """``Violated, by area: motion 12 of 59, ...; none in 22 other areas.``; nothing of a single area."""
+    areas = Counter(one.area for one in found)
+    violated = Counter(one.area for one in found if one.word == "violated")
+    unknown = Counter(one.area for one in found if one.word == "unknown")
+    if len(areas) < 2:
+        return
+    for word, counts in (("Violated", violated), ("Unknown", unknown)):
+        if counts:
+            some = ", ".join(
+                f"{area.replace('_', ' ')} {n} of {areas[area]}" for area, n in counts.most_common()
+            )
+            rest = len(areas) - len(counts)
+            none = f"; none in {counted(rest, 'other area', 'other areas')}" if rest else ""
+            yield f"{word}, by area: {some}{none}."
+
+
 def _word(one: ToldVerdict) -> str:
     return RESTRICTED if one.in_part else one.word
 

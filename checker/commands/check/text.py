@@ -11,11 +11,12 @@ from rovercheck.checker.commands.check.findings import (
     about_cases,
     about_chains,
     about_faults,
+    by_area,
     read_on,
     totals,
 )
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.output import out, wrapped
+from rovercheck.checker.commands.shared.output import at_terminal, out, wrapped
 from rovercheck.checker.commands.shared.told import ToldVerdict
 from rovercheck.checker.io.printable import json_text
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 EVIDENCE = 33
 """The column in which the evidence of a verdict begins."""
+FEW = 20
+"""Verdicts that have a line each on every terminal."""
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
@@ -31,16 +34,17 @@ SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 class CheckText:
     """How verdicts are told: with ``quiet`` only what is not as expected is printed.
 
-    ``guide`` is what helps to read on.
+    ``guide`` is what helps to read on.  With ``brief``, what is as expected is only counted.
     """
 
     as_json: bool = False
     quiet: bool = False
     guide: Guide = ALONE
+    brief: bool = False
 
     def each(self, one: ToldVerdict) -> None:
         """Print a verdict as soon as it is there."""
-        if not self.as_json and not (self.quiet and one.exit is Exit.AS_EXPECTED):
+        if not self.as_json and not ((self.quiet or self.brief) and one.exit is Exit.AS_EXPECTED):
             out.print(wrapped(line(one), EVIDENCE), markup=False)
 
     def end(self, found: Sequence[ToldVerdict], chains: Sequence["ChainStatus"], faulty: bool) -> None:
@@ -50,13 +54,21 @@ class CheckText:
 
             print(json_text(document(found, chains=chains, faulty=faulty), ascii=True))
         elif not self.quiet:
-            out.print()
+            if not self.brief:
+                out.print()
             summary(found, self.guide)
+            if self.brief:
+                _say(*by_area(found))
             about = *about_cases(found), *about_faults(found), *about_chains(chains)
             _say(*about, *read_on(found, self.guide))
         elif any(one.strict for one in found):
             wrong = [one for one in found if one.exit is not Exit.AS_EXPECTED]
             _say(*about_cases(wrong), *about_faults(wrong))
+
+
+def brief(number: int, verbose: bool) -> bool:
+    """Whether so many verdicts are only counted: on a terminal, where they would not fit, unless asked for."""
+    return not verbose and number > FEW and at_terminal(out)
 
 
 def _say(*texts: str) -> None:

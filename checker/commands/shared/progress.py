@@ -219,5 +219,5 @@ def in_plain_words(line: str) -> str:
         return "compiling"
     if line.startswith(("lowering", "slicing")) or line.startswith("reading"):
         return "preparing"
-    depth = re.search(r"depth (\d[\d,]*)", line)
+    depth = re.search(r"depth (\d+(?:,\d{3})*)", line)
     return f"searching, {depth[1]} ticks deep" if depth and depth[1] != "0" else "searching"

@@ -30,7 +30,7 @@ class ToldVerdict:
     ``occurs``: whether the case occurs that a proof speaks of, where it was ``asked`` for; ``noticed``:
     whether a fault is known that it notices, ``idle`` where that is an omission.  ``code`` is the exit code
     that it leads to, ``strict_code`` where vacuous and idle proofs are errors.  ``fired`` are the last
-    transitions of a run that was not expected.
+    transitions of a run that was not expected, ``area`` the file of properties that it is stated in.
     """
 
     id: str
@@ -60,6 +60,7 @@ class ToldVerdict:
     idle: bool = False
     strict: bool = False
     fired: tuple[str, ...] = ()
+    area: str = ""
 
     @property
     def exit(self) -> Exit:
@@ -107,6 +108,7 @@ def told(one: "CheckedProperty", systems: Mapping[str, "System"]) -> ToldVerdict
         one.idle,
         one.strict,
         () if one.as_expected else _fired(one),
+        prop.area,
     )
 
 
