@@ -67,7 +67,7 @@ class CheckText:
 
 
 def brief(number: int, verbose: bool) -> bool:
-    """Whether so many verdicts are only counted: on a terminal, where they would not fit, unless asked for."""
+    """Whether so many verdicts are only counted: on a terminal, unless every line is asked for."""
     return not verbose and number > FEW and at_terminal(out)
 
 
