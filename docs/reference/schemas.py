@@ -14,6 +14,7 @@ from rovercheck.checker.commands.certify.document import CertifyDocument
 from rovercheck.checker.commands.check.document import CheckDocument
 from rovercheck.checker.commands.check_log.document import CheckLogDocument
 from rovercheck.checker.commands.compare.document import CompareDocument
+from rovercheck.checker.commands.diff.document import DiffDocument
 from rovercheck.checker.commands.doctor.document import DoctorDocument
 from rovercheck.checker.commands.generate_tests.document import GenerateTestsDocument
 from rovercheck.checker.commands.list.document import ListDocument
@@ -27,6 +28,7 @@ DOCUMENTS: Mapping[str, Any] = {
     "check-1": CheckDocument,
     "conform-1": CheckLogDocument,
     "crosscheck-1": CompareDocument,
+    "diff-1": DiffDocument,
     "doctor-1": DoctorDocument,
     "graph-2": GraphDocument,
     "list-1": ListDocument,
