@@ -1,4 +1,4 @@
-"""What decides, as one short key: rovercheck's own code and the versions of everything installed beside it.
+"""What decides, as one short key: rovercheck's own code and the versions of the packages that it uses.
 
 A verdict is kept for the code that found it.  Charts and properties are no part of it: they are the question.
 """
@@ -32,6 +32,9 @@ SOURCES = (
     "spec_model/lang",
 )
 """Files and folders of modules that take part in a verdict."""
+PACKAGES = ("bitwuzla", "llvmlite", "networkx", "numpy", "oxidd", "python_sat", "z3_solver")
+"""Packages of others that do, as their folders of metadata are called."""
+BEGINNINGS = tuple(f"{name}-" for name in PACKAGES)
 
 
 class ChangedMeanwhile(OSError):
@@ -61,9 +64,10 @@ def sources() -> list[Path]:
 
 
 def installed() -> list[str]:
-    """The packages that can be imported, each with its version, as their folders are called."""
+    """The packages that take part in a verdict, each with its version, as their folders are called."""
     found = set[str]()
     for place in map(Path, filter(None, sys.path)):
         if place.is_dir():
-            found |= {path.name for path in place.glob("*.dist-info")}
+            named = (path.name for path in place.glob("*.dist-info"))
+            found |= {name for name in named if name.lower().startswith(BEGINNINGS)}
     return sorted(found)

@@ -20,6 +20,8 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out
 from rovercheck.checker.commands.shared.text_wrap import whole
 
+PAUSE = 300
+"""Milliseconds after which it is looked whether the folders are still there."""
 SUFFIXES = (".py", ".toml", ".json")
 """Files of a model."""
 _ROOT = Path(__file__).parents[3]
@@ -41,29 +43,31 @@ def watch(arguments: Sequence[str], model: Path | None) -> Exit:
     ``arguments`` are those of ``check``.  Raises ``UsageError`` where the folder is gone.
     """
     folders = watched(model)
-    code, before = _round(arguments, None, "")
     names = ", ".join(whole(folder) for folder in folders)
-    err.print(f"Watching {names}; Ctrl-C ends.", markup=False)
+    code, before = Exit.INTERRUPTED, None
     with suppress(KeyboardInterrupt):
         for saved in _saves(folders):
-            code, before = _round(arguments, before, saved)
+            if code is Exit.INTERRUPTED:
+                code, before = _round(arguments, None, "")
+                err.print(f"Watching {names}; Ctrl-C ends.", markup=False)
+            if saved:
+                code, before = _round(arguments, before, saved)
     return code
 
 
 def _saves(folders: Sequence[Path]) -> Iterator[str]:
-    """After each change of a file of a model, the names of those that changed.
+    """After each change of a file of a model, the names of those that changed, and now and then nothing.
 
-    Raises ``UsageError`` where a folder is gone.
+    What is saved while somebody else works is seen later.  Raises ``UsageError`` where a folder is gone.
     """
     from watchfiles import watch as changes_in
 
-    for found in changes_in(*folders, raise_interrupt=True, yield_on_timeout=True, rust_timeout=2000):
+    for found in changes_in(*folders, raise_interrupt=True, yield_on_timeout=True, rust_timeout=PAUSE):
         gone = [folder for folder in folders if not folder.is_dir()]
         if gone:
             raise UsageError(f"{whole(gone[0])} is gone: there is nothing to watch any more.")
         names = {Path(name).name for _, name in found if name.endswith(SUFFIXES)}
-        if names:
-            yield ", ".join(sorted(names))
+        yield ", ".join(sorted(names))
 
 
 def _round(arguments: Sequence[str], before: list[Any] | None, saved: str) -> tuple[Exit, list[Any] | None]:
