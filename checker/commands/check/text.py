@@ -61,6 +61,10 @@ class CheckText:
                 _say(*by_area(found))
             about = *about_cases(found), *about_faults(found), *about_chains(chains)
             _say(*about, *read_on(found, self.guide))
+            if self.brief:
+                _say(
+                    f"A line for every verdict: {self.guide.command('check', self.guide.chosen, '--verbose')}"
+                )
         elif any(one.strict for one in found):
             wrong = [one for one in found if one.exit is not Exit.AS_EXPECTED]
             _say(*about_cases(wrong), *about_faults(wrong))
