@@ -8,10 +8,12 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import out
 from rovercheck.checker.commands.shared.tables import listed
 from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
+from rovercheck.checker.store.verdicts import store
 from rovercheck.checker.verify.checked import CheckedProperty, worst
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.coverage import RequirementCoverage, matrix
@@ -50,11 +52,11 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     rows = matrix(stated.values(), model.requirements, noticing(model))
     if not decide:
         return show(rows, {id: model.expected(id).verdict for id in stated}, EXPECTED, as_json)
+    kept = store(AUTO, Limits())
+    search = SearchSettings(invariants=invariants_of(model), store=kept, traces=False)
     found = [
         CheckedProperty(r, model.expected(r.property.id))
-        for r in results(
-            list(stated.values()), model.systems, SearchSettings(invariants=invariants_of(model))
-        )
+        for r in results(list(stated.values()), model.systems, search)
     ]
     code = show(rows, words(found), DECIDED, as_json)
     return code if code != Exit.AS_EXPECTED else worst(found)
