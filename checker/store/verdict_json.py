@@ -1,9 +1,7 @@
 """Verdicts as JSON: what they rest on, without the states of a search, and a run as its inputs."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
-
-from typing_extensions import TypedDict
+from typing import Any, Literal, TypedDict
 
 from rovercheck.checker.model.kept_runs import KeptRun, kept, row
 from rovercheck.checker.results.trace import NecessaryInputs, Needed, Trace

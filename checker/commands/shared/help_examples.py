@@ -19,7 +19,8 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         "rovercheck check PB1-15 PB2-01",
         "rovercheck check --system relay --certify",
         "rovercheck check --model heater.py --junit verdicts.xml",
-        "rovercheck check --quiet --json > verdicts.json",
+        "rovercheck check --changed main --quiet",
+        "rovercheck check --model heater.py --watch",
     ),
     "check-log": (
         "rovercheck check-log examples/logs/good.csv",
@@ -28,6 +29,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "compare": (
         "rovercheck compare --system board1",
         "rovercheck compare --system board1 --impl c:examples/board1_c",
+    ),
+    "diff": (
+        "rovercheck diff HEAD",
+        "rovercheck diff main HEAD --model heater.py --format markdown",
     ),
     "export": (
         "rovercheck export PB1-15 --format btor2 -o PB1-15.btor2",
