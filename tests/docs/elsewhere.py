@@ -22,6 +22,7 @@ CROSSCHECKS = Instead(
 COVERS = Instead("searches for minutes; tests/cli/test_generate_tests.py runs the command on small charts")
 MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
+REVISIONS = Instead("decides all of two revisions; tests/cli/test_diff.py compares those of small models")
 PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
 
 FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
@@ -72,6 +73,11 @@ COMMANDS = {
     "rovercheck simulate SCENARIO.toml --log logs": Instead("the line with -o writes the log, too"),
     "rovercheck simulate SCENARIO.toml --no-plot": Instead("any scenario; the first line is run so"),
     "rovercheck simulate examples/scenarios/link_loss.toml": Instead("the line below it runs this scenario"),
+    "rovercheck check --model heater.py --watch": Instead(
+        "goes on for ever; tests/cli/test_watch.py ends it"
+    ),
+    "rovercheck check --changed": REVISIONS,
+    "rovercheck diff HEAD": REVISIONS,
     "rovercheck report --output review.html": Instead(
         "decides everything; the line with --full below it is run for one property"
     ),
