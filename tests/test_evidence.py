@@ -27,6 +27,7 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import kept_runs
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.catalogue import catalogue, expected
@@ -58,11 +59,11 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
     ]
     assert len(verdicts) == len(affordable)
     assert [line(c) for c in verdicts if c.code is not Exit.AS_EXPECTED] == []
-    guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
+    guide = Guide(order=order_of(rover()), causes="reports/README.md")
     summary(verdicts, guide)
     said = capsys.readouterr().out.splitlines()
     cases_and_faults = [*about_cases(verdicts), *about_faults(verdicts)]
-    ending = [*said, *cases_and_faults, *read_on(verdicts, systems(), guide)]
+    ending = [*said, *cases_and_faults, *read_on(verdicts, guide)]
     shown, end = sample()
     assert [s for s in shown if s not in {line(c) for c in verdicts}] == []
     printed = [re.sub(r": \S*rovercheck ", ": .venv/bin/rovercheck ", plain(text)) for text in ending]

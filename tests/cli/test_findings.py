@@ -9,13 +9,14 @@ import pytest
 
 from rovercheck.checker.cli import app, run
 from rovercheck.checker.commands.check import findings
-from rovercheck.checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
+from rovercheck.checker.commands.check.findings import SHOWN, Guide, listed, program, read_on, totals
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.text_wrap import plain
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, Reachable, always, reachable
@@ -51,6 +52,10 @@ def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> Checke
     return CheckedProperty(
         Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system), Expected("violated")
     )
+
+
+def violated(found: Sequence[CheckedProperty]) -> list[CheckedProperty]:
+    return [one for one in found if one.verdict.word == "violated"]
 
 
 def ids(found: Sequence[CheckedProperty]) -> list[str]:
@@ -89,21 +94,22 @@ def test_the_gravest_finding_of_each_requirement_comes_first() -> None:
         on(demand("D-6", "R-1"), ALL),
         broken("D-7", "R-2", "R-1", ticks=10),
     ]
-    assert ids(gravest(found, by_size, ["R-1", "R-2"])) == ["D-4", "D-2", "D-5", "D-3", "D-1", "D-7", "S-1"]
+    order = FindingOrder({}, ["R-1", "R-2"], by_size)
+    assert ids(order.ordered(violated(found))) == ["D-4", "D-2", "D-5", "D-3", "D-1", "D-7", "S-1"]
 
 
 def test_no_finding_is_left_out_without_a_word() -> None:
     found = [broken(f"D-{n}", f"R-{n}") for n in range(SHOWN + 3)]
-    guide = Guide(gravest=[f"R-{n}" for n in range(SHOWN + 3)], causes="causes.md")
-    blank, head, *lines = read_on([*found, REACHED], {}, guide)
+    guide = Guide(order=FindingOrder({}, [f"R-{n}" for n in range(SHOWN + 3)]), causes="causes.md")
+    blank, head, *lines = read_on([*found, REACHED], guide)
     assert blank == "" and head.endswith(f"({SHOWN} of {SHOWN + 3}):")
     assert lines[:SHOWN] == [f"  D-{n}, toy: D-{n} is kept." for n in range(SHOWN)]
     assert lines[SHOWN] == "" and plain(lines[SHOWN + 1]).endswith("rovercheck trace D-0")
     assert lines[SHOWN + 2].startswith(f"All {SHOWN + 3} on one page: ")
     assert lines[SHOWN + 3] == "Causes and proposed repairs: causes.md"
-    assert next(listed(found[:SHOWN])) == "Violated, the gravest first:"
-    assert next(listed(found[:1])) == "Violated:"
-    assert list(read_on([REACHED], {}, Guide())) == []
+    assert next(listed(found[:SHOWN], FindingOrder())) == "Violated, the gravest first:"
+    assert next(listed(found[:1], FindingOrder())) == "Violated:"
+    assert list(read_on([REACHED], Guide())) == []
 
 
 def test_the_promises_of_the_rover_come_first() -> None:

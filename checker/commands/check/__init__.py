@@ -60,7 +60,8 @@ class CheckOptions:
 @click.option(
     "--strict",
     is_flag=True,
-    help="Treat as errors: proofs that are or may be vacuous, and proofs that kill no known mutant.",
+    help="Treat as errors: proofs that are or may be vacuous, proofs that kill no known mutant, and findings "
+    "whose acceptance has expired.",
 )
 @click.option("--no-premises", is_flag=True, help="Do not check whether the premises of proofs occur.")
 @click.option(
@@ -129,6 +130,7 @@ def check(
         from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest
         from rovercheck.checker.commands.check.run import check as run
         from rovercheck.checker.commands.shared.variant import askable
+        from rovercheck.checker.verify.finding_order import order_of
 
         variant = charts.variant()
         properties = selection.properties(variant)
@@ -140,7 +142,8 @@ def check(
             properties = askable(variant, properties)
         options.possible()
         settings = _settings(search, options, variant)
-        guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
+        order = order_of(variant.model, variant.systems())
+        guide = Guide(variant.options, selection.again, order, causes(variant))
         deliver = _delivering(options, variant)
         further = _further(options, variant, settings, chains)
         return run(
@@ -184,9 +187,10 @@ def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":
     if not (options.junit or options.sarif or options.annotations):
         return undelivered
     from rovercheck.checker.commands.check.ci import Reports
+    from rovercheck.checker.verify.finding_order import order_of
 
     reports = Reports(
-        variant.systems(),
+        order_of(variant.model, variant.systems()),
         options.junit,
         options.sarif,
         options.annotations or "",

@@ -1,6 +1,6 @@
 """Verdicts as JSON, as ``rovercheck check --json`` prints them (``checker/schemas/check-1.json``)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from typing_extensions import TypedDict
@@ -11,7 +11,9 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.io.document import Count, Text
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.verify.checked import CheckedProperty, length, worst
-from rovercheck.properties.expected import VerdictWord
+from rovercheck.checker.verify.finding_order import FindingOrder
+from rovercheck.properties.expected import Expected, VerdictWord
+from rovercheck.properties.hazards import Severity
 
 Case = Literal["occurs", "never", "unknown"]
 CASE: dict[bool | None, Case] = {True: "occurs", False: "never", None: "unknown"}
@@ -28,6 +30,19 @@ class ChainRow(TypedDict):
     """Whether every link holds; null if that is not known."""
     failing: list[str]
     """The links that are violated, or else not decided."""
+
+
+class DecisionRow(TypedDict):
+    """Whether somebody lives with a finding."""
+
+    state: Literal["open", "accepted", "expired"]
+    """Open as long as nobody does; expired once its last day is over."""
+    because: str
+    owner: str
+    on: str | None
+    """The day on which it was decided, such as 2026-03-01."""
+    until: str | None
+    """The last day on which it is accepted; null without an end."""
 
 
 class VerdictRow(TypedDict):
@@ -59,6 +74,18 @@ class VerdictRow(TypedDict):
     are kept."""
     because: str
     """The reason on record for an expected violation."""
+    effect: str
+    """What goes wrong where it is violated, as far as that is on record."""
+    hazard: str
+    """The hazard of breaking it, by id; empty if none is known."""
+    severity: Severity
+    """How bad that would be."""
+    place: Count | None
+    """The place of what is violated, from 1 for the gravest; null for what is not violated."""
+    since: str | None
+    """The day on which the violation became known, such as 2026-03-01, if it is on record."""
+    decision: DecisionRow | None
+    """What was decided about a violation that is on record; null for what is expected to be proved."""
 
 
 class CheckDocument(TypedDict):
@@ -82,11 +109,15 @@ def document(
     ended: Exit | None = None,
     faulty: bool = False,
     chains: Sequence[ChainStatus] = (),
+    order: FindingOrder | None = None,
 ) -> CheckDocument:
     """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
 
-    ``faulty``: an engine failed, which is an internal error whatever the others found.
+    ``faulty``: an engine failed, which is an internal error whatever the others found.  ``order`` knows the
+    hazards.
     """
+    order = order or FindingOrder()
+    places = order.places([c for c in found if c.verdict.word == "violated"])
     return {
         "schema": "rovercheck/check/1",
         "variant": found[0].variant if found else "",
@@ -101,12 +132,13 @@ def document(
             }
             for one in chains
         ],
-        "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],
+        "results": [_row(c, order, places) for c in sorted(found, key=lambda c: c.result.property.id)],
     }
 
 
-def _row(compared: CheckedProperty) -> VerdictRow:
+def _row(compared: CheckedProperty, order: FindingOrder, places: Mapping[str, int]) -> VerdictRow:
     prop, verdict = compared.result.property, compared.verdict
+    hazard, since = order.hazard(compared), compared.expected.since
     return {
         "id": prop.id,
         "text": prop.text,
@@ -123,6 +155,28 @@ def _row(compared: CheckedProperty) -> VerdictRow:
         "case": None if compared.case is None else CASE[compared.case.occurs],
         "noticed": compared.noticed,
         "because": compared.expected.because,
+        "effect": compared.expected.effect,
+        "hazard": hazard.id,
+        "severity": hazard.severity,
+        "place": places[prop.id] + 1 if prop.id in places else None,
+        "since": None if since is None else since.isoformat(),
+        "decision": decided(compared.expected),
+    }
+
+
+def decided(entry: Expected) -> DecisionRow | None:
+    """What was decided about a finding that is on record."""
+    if entry.verdict == "proved":
+        return None
+    one = entry.accepted
+    if one is None:
+        return {"state": "open", "because": "", "owner": "", "on": None, "until": None}
+    return {
+        "state": "expired" if one.expired else "accepted",
+        "because": one.because,
+        "owner": one.owner,
+        "on": None if one.on is None else one.on.isoformat(),
+        "until": None if one.until is None else one.until.isoformat(),
     }
 
 

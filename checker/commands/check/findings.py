@@ -3,7 +3,8 @@
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import groupby
 from os.path import relpath
 from pathlib import Path
 from shlex import quote
@@ -12,8 +13,9 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.text_wrap import whole
-from rovercheck.properties.forms import Property, Reachable
-from rovercheck.spec_model.lang.system import System
+from rovercheck.checker.verify.finding_order import FindingOrder
+from rovercheck.properties.forms import Reachable
+from rovercheck.properties.hazards import Hazard, Severity
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import ChainStatus
@@ -36,13 +38,13 @@ SITUATION = {"proved": "reached", RESTRICTED: f"out of reach {RESTRICTED}", "vio
 class Guide:
     """Where a user reads on.
 
-    ``options`` make a command be about the same charts, ``chosen`` about the same properties.  ``gravest``
-    are the requirements, those first whose violation is gravest; ``causes`` is a page on all findings.
+    ``options`` make a command be about the same charts, ``chosen`` about the same properties.  ``order`` says
+    which findings are gravest; ``causes`` is a page on all findings.
     """
 
     options: str = ""
     chosen: str = ""
-    gravest: Sequence[str] = ()
+    order: FindingOrder = field(default_factory=FindingOrder)
     causes: str = ""
 
     def command(self, *words: str) -> str:
@@ -131,28 +133,49 @@ def about_chains(told: Sequence["ChainStatus"]) -> Iterator[str]:
         yield from (f"  {one.text}" for one in told if not one.holds)
 
 
-def read_on(found: Sequence["CheckedProperty"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
+def about_acceptances(found: Sequence["CheckedProperty"]) -> Iterator[str]:
+    """Which findings were accepted until a day that is over: nobody accepts them any more."""
+    over = [(one.result.property.id, ended) for one in found if (ended := one.lapsed) is not None]
+    if over:
+        yield "No longer accepted, as the time for which they were is over:"
+        yield from (f"  {id}: accepted {ended.term}: {ended.because}" for id, ended in over)
+
+
+def read_on(found: Sequence["CheckedProperty"], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
-    known = gravest([one for one in found if one.as_expected or one.variant], systems, guide.gravest)
-    number = sum(one.verdict.word == "violated" for one in found)
+    broken = [one for one in found if one.verdict.word == "violated"]
+    known = guide.order.ordered([one for one in broken if one.as_expected or one.variant])
     if known:
         yield ""
-        yield from listed(known)
-    if number:
+        yield from listed(known, guide.order)
+    if broken:
         yield ""
-        yield from _commands(known, number, guide)
+        yield from _commands(known, len(broken), guide)
 
 
-def listed(ordered: Sequence["CheckedProperty"]) -> Iterator[str]:
-    """The first findings, each in a line."""
+def listed(ordered: Sequence["CheckedProperty"], order: FindingOrder) -> Iterator[str]:
+    """The first findings, each in a line, under a line for each hazard."""
     if len(ordered) > SHOWN:
-        yield f"Violated, the gravest first, one for each requirement ({SHOWN} of {len(ordered)}):"
+        yield f"Violated, the gravest first ({SHOWN} of {len(ordered)}):"
     else:
         yield "Violated, the gravest first:" if len(ordered) > 1 else "Violated:"
-    for one in ordered[:SHOWN]:
-        prop = one.result.property
-        out_of_reach = "Cannot be reached: " if isinstance(prop.form, Reachable) else ""
-        yield f"  {prop.id}, {one.result.system}: {out_of_reach}{prop.text}"
+    for hazard, members in groupby(ordered[:SHOWN], key=order.hazard):
+        if hazard.severity is not Severity.UNRATED or order.hazards:
+            yield f"  {headline(hazard)}"
+        yield from (f"  {one.result.property.id}, {one.result.system}: {told(one)}" for one in members)
+
+
+def headline(hazard: Hazard) -> str:
+    """``catastrophic, H-COLLISION: The rover runs into an obstacle.``"""
+    return f"{', '.join(filter(None, (hazard.severity, hazard.id)))}: {hazard.text}"
+
+
+def told(one: "CheckedProperty") -> str:
+    """What goes wrong, as far as that is on record, or what should be true."""
+    if one.expected.effect and one.expected.verdict == one.verdict.word and not one.variant:
+        return one.expected.effect
+    prop = one.result.property
+    return f"Cannot be reached: {prop.text}" if isinstance(prop.form, Reachable) else prop.text
 
 
 def _commands(known: Sequence["CheckedProperty"], number: int, guide: Guide) -> Iterator[str]:
@@ -163,30 +186,3 @@ def _commands(known: Sequence["CheckedProperty"], number: int, guide: Guide) -> 
     yield f"All {number} on one page: {page}" if number > 1 else f"On a page: {page}"
     if guide.causes:
         yield f"Causes and proposed repairs: {guide.causes}"
-
-
-def gravest(
-    found: Sequence["CheckedProperty"], systems: Mapping[str, System], order: Sequence[str]
-) -> list["CheckedProperty"]:
-    """What is violated: for each requirement the gravest finding, in the order of the requirements, then for
-    each the next, and so on.
-
-    Of one requirement a demand comes before a situation out of reach, then what is shown on more of the
-    charts, then what a shorter run shows.
-    """
-    rank = {id: place for place, id in enumerate(order)}
-    turns = Counter[int]()
-    keyed = []
-    broken = (one for one in found if one.verdict.word == "violated")
-    for one in sorted(broken, key=lambda one: _within(one, systems)):
-        first = min((rank.get(id, len(rank)) for id in one.result.property.covers), default=len(rank))
-        keyed.append(((turns[first], first), one))
-        turns[first] += 1
-    return [one for _, one in sorted(keyed, key=lambda pair: pair[0])]
-
-
-def _within(one: "CheckedProperty", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
-    """What is graver of two findings about one requirement."""
-    prop: Property = one.result.property
-    charts = len(systems[one.result.system].charts) if one.result.system in systems else 0
-    return isinstance(prop.form, Reachable), -charts, one.length or sys.maxsize, prop.id

@@ -9,6 +9,7 @@ from rovercheck.checker.commands.check.certificates import certificates, certifi
 from rovercheck.checker.commands.check.findings import (
     ALONE,
     Guide,
+    about_acceptances,
     about_cases,
     about_chains,
     about_faults,
@@ -125,15 +126,16 @@ def check(request: CheckRequest, output: CheckOutput = PRINTED) -> Exit:
     if output.as_json:
         from rovercheck.checker.commands.check.document import document
 
-        print(json_text(document(found, chains=chains, faulty=bool(faults)), ascii=True))
+        order = output.guide.order
+        print(json_text(document(found, chains=chains, faulty=bool(faults), order=order), ascii=True))
     elif not output.quiet:
         out.print()
         summary(found, output.guide)
-        about = *about_cases(found), *about_faults(found), *about_chains(chains)
-        _say(*about, *read_on(found, request.systems, output.guide))
-    elif request.strict:
-        wrong = [c for c in found if c.code is not Exit.AS_EXPECTED]
-        _say(*about_cases(wrong), *about_faults(wrong))
+        about = *about_acceptances(found), *about_cases(found), *about_faults(found), *about_chains(chains)
+        _say(*about, *read_on(found, output.guide))
+    else:
+        wrong = [c for c in found if request.strict and c.code is not Exit.AS_EXPECTED]
+        _say(*about_acceptances(found), *about_cases(wrong), *about_faults(wrong))
     output.deliver(found, wanted, _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)
 
@@ -153,7 +155,7 @@ def _ended(
         from rovercheck.checker.commands.check.document import document
 
         gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
-        print(json_text(document(found, code_of(error), gravest), ascii=True))
+        print(json_text(document(found, code_of(error), gravest, order=output.guide.order), ascii=True))
     output.deliver(found, wanted, " ".join(filter(None, (_why(error), _alarmed(faults)))))
     from rovercheck.checker.certify.file import Unwritable
 
