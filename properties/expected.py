@@ -53,9 +53,9 @@ class Expected:
 
     ``because`` names the transition or sentence that causes it, ``same_cause`` another finding that has this
     cause too; ``no_repair`` says why no change of a chart is proposed, where none is; ``no_fault`` why a
-    proof need not notice any fault of the charts.  ``effect`` is what goes wrong, in one sentence; ``hazard`` what
-    may come of it, where it is not the gravest hazard of the requirements that are broken.  ``since`` is when
-    the finding became known, ``accepted`` who lives with it: it is open as long as nobody does.
+    proof need not notice any fault of the charts.  ``effect`` is what goes wrong, in one sentence; ``hazard``
+    what may come of it, where it is not the gravest hazard of the requirements that are broken.  ``since`` is
+    when the finding became known, ``accepted`` who lives with it: it is open as long as nobody does.
     """
 
     verdict: VerdictWord = "proved"

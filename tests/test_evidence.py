@@ -88,7 +88,7 @@ def sample() -> tuple[list[str], list[str]]:
     """The lines of verdicts that the README shows of ``make check``, and those at its end, unwrapped."""
     text = (ROOT / "README.md").read_text(encoding="utf-8").partition("    $ make check\n")[2]
     block = re.split(r"\n(?=\S)", text)[0].rstrip()
-    whole = re.sub(r"\n {8}(?=\S)", " ", block)  # a line that goes on in the next
+    whole = re.sub(r"\n {10}(?=\S)", " ", block)  # a line that goes on in the next
     lines = [piece.removeprefix("    ") for piece in whole.splitlines()]
     end = lines.index("")
     return [one for one in lines[:end] if not one.startswith("  ...")], lines[end + 1 :]

@@ -15,7 +15,7 @@ from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.properties.forms import Reachable
-from rovercheck.properties.hazards import Hazard, Severity
+from rovercheck.properties.hazards import Hazard
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import ChainStatus
@@ -159,10 +159,12 @@ def listed(ordered: Sequence["CheckedProperty"], order: FindingOrder) -> Iterato
         yield f"Violated, the gravest first ({SHOWN} of {len(ordered)}):"
     else:
         yield "Violated, the gravest first:" if len(ordered) > 1 else "Violated:"
+    deeper = "  " if order.hazards else ""
     for hazard, members in groupby(ordered[:SHOWN], key=order.hazard):
-        if hazard.severity is not Severity.UNRATED or order.hazards:
+        if order.hazards:
             yield f"  {headline(hazard)}"
-        yield from (f"  {one.result.property.id}, {one.result.system}: {told(one)}" for one in members)
+        for one in members:
+            yield f"  {deeper}{one.result.property.id}, {one.result.system}: {told(one)}"
 
 
 def headline(hazard: Hazard) -> str:

@@ -169,7 +169,7 @@ def _ended(
 
 def _say(*texts: str) -> None:
     for text in texts:
-        out.print(wrapped(text, 4), markup=False)
+        out.print(wrapped(text, 6), markup=False)
 
 
 def _alarmed(faults: Sequence[Fault]) -> str:
