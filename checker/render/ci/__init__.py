@@ -88,7 +88,7 @@ class CiFinding:
             return f"The proof of {self.id} does not hold when it is checked again"
         verdict = " ".join(filter(None, (self.id, "is", self.word, self.variant)))
         if self.lapsed and self.accepted is not None:
-            return f"{verdict}, as expected, but accepted only {self.accepted.term}"
+            return f"{verdict}, as expected, but was accepted {self.accepted.term} only"
         if self.level is FindingLevel.KNOWN:
             return f"{verdict}, as expected"
         if self.level is FindingLevel.PASSED or not self.recorded:
