@@ -41,7 +41,7 @@ class AcceptOptions:
 @click.option(
     "--from",
     "source",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
     help="Decisions as JSON, such as a review page exports.",
 )
