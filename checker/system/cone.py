@@ -17,10 +17,15 @@ def depends_on(system: TransitionSystem, prop: Property) -> TransitionSystem:
 
 @dataclass(frozen=True)
 class Dependencies:
-    """What a verdict depends on: ids of interpretations and of assumptions, in the order of the system."""
+    """What a verdict depends on: ids of interpretations and of assumptions, in the order of the system.
+
+    ``besides`` are interpretations in the cone of influence of which any other choice, taken by itself,
+    leaves the verdict as it is.
+    """
 
     interpretations: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
+    besides: tuple[str, ...] = ()
 
 
 def dependencies(

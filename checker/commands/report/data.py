@@ -81,6 +81,7 @@ def reviewed(
             place=places[c.result.property.id],
             interpretations=depends[c.result.property.id].interpretations,
             assumptions=depends[c.result.property.id].assumptions,
+            besides=depends[c.result.property.id].besides,
         )
         for c in shown
     )

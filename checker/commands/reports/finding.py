@@ -6,26 +6,28 @@ from html import escape
 
 from rovercheck.checker.commands.report.data import decision
 from rovercheck.checker.commands.reports.repairs import Proof, sections
-from rovercheck.checker.commands.shared.dependencies import of_rover
+from rovercheck.checker.commands.shared.dependencies import of_verdict
 from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.explain.explanation import unexplained
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.trace_markdown import reasons_table
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.system.cone import Dependencies
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property
 from rovercheck.properties.hazards import Hazard, gravest_of, hazards
 from rovercheck.properties.requirements import requirements
-from rovercheck.spec_model.rover import systems
 
 RUN = "## Shortest counterexample"
 LONG_RUN = "## A counterexample, not known to be a shortest one"
 """For runs whose length is not recorded."""
 
 CAUSE = "## Cause: the inputs that determine the violation"
+OTHERWISE = "under any other choice of one of them the same inputs break it too"
 NOT_ASKED = "Not looked for in this version of the page."
 
 
@@ -61,9 +63,16 @@ def _summary(compared: CheckedProperty, proved: Sequence[Proof]) -> Iterator[tup
     mended = ", ".join(f"[{p.repair.name}](#proposed-repair)" for p in proved if prop.id in p.repair.fixes)
     yield "repair", mended or f"none. {entry.no_repair}".strip()
     yield "decision", decision(entry)
-    found = of_rover(prop, compared.result.system if compared.result.system in systems() else prop.on)
-    yield "depends on interpretations", ", ".join(found.interpretations)
-    yield "depends on assumptions", ", ".join(found.assumptions)
+    yield "depends on", depends(of_verdict(compared, Variant({})))
+
+
+def depends(found: Dependencies) -> str:
+    """What a finding depends on, in words; empty if that is nothing."""
+    said = [f"interpretations {', '.join(found.interpretations)}"] if found.interpretations else []
+    said += [f"assumptions {', '.join(found.assumptions)}"] if found.assumptions else []
+    if found.besides:
+        said += [f"not on the {len(found.besides)} other interpretations that the system reads: {OTHERWISE}"]
+    return "; ".join(said)
 
 
 def hazard_of(prop: Property, entry: Expected) -> Hazard:

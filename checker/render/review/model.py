@@ -50,6 +50,8 @@ class ReviewedProperty:
     interpretations: tuple[str, ...] = ()
     assumptions: tuple[str, ...] = ()
     """The interpretations and assumptions that the verdict can depend on."""
+    besides: tuple[str, ...] = ()
+    """Interpretations that the property reads and of which another choice leaves the verdict as it is."""
     effect: str = ""
     """What goes wrong, in one sentence, as far as that is on record."""
     severity: str = "unrated"
