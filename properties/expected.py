@@ -76,9 +76,9 @@ class Expected:
 
 
 def on_record(
-    table: Mapping[str, Any], known: Collection[str], file: str, hazards: Collection[str] = ()
+    table: Mapping[str, Any], known: Collection[str], file: str, hazards: Collection[str] | None = ()
 ) -> dict[str, Expected]:
-    """The verdicts that a baseline file states of the properties ``known``.
+    """The verdicts that a baseline states of properties ``known``, with ``hazards`` (None: not known).
 
     Raises ``ModelError`` with a line for each entry that names no property or hazard, has no reason or says
     something else.
@@ -120,11 +120,13 @@ def _kind_faults(id: str, row: Mapping[str, Any], fields: Mapping[str, type]) ->
             yield f": {id} has {name} = {shown}; write a {KINDS[fields[name]]}."
 
 
-def _links(id: str, table: Mapping[str, Any], hazards: Collection[str]) -> Iterator[str]:
+def _links(id: str, table: Mapping[str, Any], hazards: Collection[str] | None) -> Iterator[str]:
     """What an entry names that is not there."""
     row = table[id]
     hazard, cause = row.get("hazard", ""), row.get("same_cause", "")
-    if hazard and not hazards:
+    if hazards is None:
+        pass
+    elif hazard and not hazards:
         yield f": {id} names the hazard {hazard!r}, and there is none; write hazards.toml beside the model."
     elif hazard and hazard not in hazards:
         yield f": {id} names {hazard!r}, no hazard. {did_you_mean(hazard, hazards)}"

@@ -58,10 +58,11 @@ def hazards() -> dict[str, Hazard]:
     return hazards_in(table, requirements(), "hazards.toml")
 
 
-def hazards_in(table: Mapping[str, Any], known: Collection[str], file: str) -> dict[str, Hazard]:
+def hazards_in(table: Mapping[str, Any], known: Collection[str] | None, file: str) -> dict[str, Hazard]:
     """The hazards that a file states, the gravest first, those of one severity in its order.
 
-    ``known`` are the ids of the requirements.  Raises ``ModelError`` with a line for each fault.
+    ``known`` are the ids of the requirements, None if they are not known.  Raises ``ModelError`` with a line
+    for each fault.
     """
     faults = [f"{file}: {id} {fault}" for id, row in table.items() for fault in _faults(row, known)]
     if faults:
@@ -73,7 +74,7 @@ def hazards_in(table: Mapping[str, Any], known: Collection[str], file: str) -> d
     return {one.id: one for one in sorted(found, key=lambda one: one.severity.rank)}
 
 
-def _faults(row: Any, known: Collection[str]) -> Iterator[str]:
+def _faults(row: Any, known: Collection[str] | None) -> Iterator[str]:
     if not isinstance(row, Mapping):
         yield f"is {row!r}; write a table with {', '.join(FIELDS)}."
         return
@@ -90,7 +91,7 @@ def _faults(row: Any, known: Collection[str]) -> Iterator[str]:
         yield f"has requirements = {listed!r}; write the ids of one at least, in a list."
         return
     for id in listed:
-        if id not in known:
+        if known is not None and id not in known:
             yield f"names {id!r}, no requirement. {did_you_mean(id, known)}"
         elif listed.count(id) > 1:
             yield f"names {id} twice; delete one."

@@ -40,16 +40,18 @@ def load(path: Path) -> Model:
     found = _Found([(file, vars(module).values()) for file, module in modules], faults)
     found.take_all()
     on_record, requirements, hazards = {}, dict[str, Requirement](), dict[str, Hazard]()
+    beside = list[str]()
     if found.whole:
         folder = files[0].parent
+        with _gathered(beside):
+            file = folder / f"{REGISTER.lower()}.toml"
+            requirements, wrong = register(modules, file, found.properties.values())
+            beside += wrong
+        with _gathered(beside):
+            hazards = hazards_of(folder, None if beside else requirements)
         with _gathered(faults):
-            beside = folder / f"{REGISTER.lower()}.toml"
-            requirements, wrong = register(modules, beside, found.properties.values())
-            faults += wrong
-        with _gathered(faults):
-            hazards = hazards_of(folder, requirements)
-        with _gathered(faults):
-            on_record = recorded(path, found.ids, hazards)
+            on_record = recorded(path, found.ids, None if beside else hazards)
+        faults += beside
     if faults:
         raise ModelError("\n".join(dict.fromkeys(faults)))
     if not found.systems:

@@ -29,14 +29,16 @@ def baseline_of(path: Path) -> Path:
     return own if own.exists() else path.with_name("baseline.toml")
 
 
-def recorded(path: Path, known: Collection[str], hazards: Collection[str] = ()) -> dict[str, Expected]:
-    """The expected verdicts beside a model, none if there is no such file.  Raises ``ModelError``."""
+def recorded(path: Path, known: Collection[str], hazards: Collection[str] | None = ()) -> dict[str, Expected]:
+    """The expected verdicts beside a model, none if there is no such file; ``hazards`` are those that there
+    are, None if that is not known.  Raises ``ModelError``."""
     file = baseline_of(path)
     return on_record(_table(file), known, shown(file), hazards) if file.exists() else {}
 
 
-def hazards_of(folder: Path, known: Collection[str]) -> dict[str, Hazard]:
-    """The hazards beside a model with the requirements ``known``, none if there is no ``hazards.toml``.
+def hazards_of(folder: Path, known: Collection[str] | None) -> dict[str, Hazard]:
+    """The hazards beside a model with the requirements ``known`` (None: not known), none if there is no
+    ``hazards.toml``.
 
     Raises ``ModelError`` for what it says that has no meaning.
     """
