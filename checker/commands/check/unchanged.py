@@ -7,6 +7,7 @@ asked for one by one (``checker.store.verdicts``).
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from datetime import date
 from hashlib import sha256
 from typing import Any
 
@@ -14,6 +15,7 @@ from rovercheck.checker.cache import entries
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import SearchOptions, SelectionOptions
 from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.results.gravity import Gravity
 from rovercheck.checker.store.tree import tree_key
 
 SCHEMA = "rovercheck/told/1"
@@ -29,11 +31,10 @@ class ToldProperty:
 
 @dataclass(frozen=True)
 class ToldModel:
-    """What was told of a model: properties in their order, systems, requirements from the gravest on."""
+    """What was told of a model: properties in their order, and systems."""
 
     properties: Mapping[str, ToldProperty]
     systems: Sequence[str]
-    order: Sequence[str]
     verdicts: Mapping[str, ToldVerdict]
 
     def chosen(self, selection: SelectionOptions) -> list[ToldVerdict] | None:
@@ -57,12 +58,17 @@ class ToldStore:
 
     @staticmethod
     def now(search: SearchOptions) -> "ToldStore | None":
-        """For the files as they are now; None where they cannot be read."""
+        """For the files as they are now, and today: what was accepted may be so no longer tomorrow.
+
+        None where they cannot be read.
+        """
         try:
             tree = tree_key()
         except OSError:
             return None
-        asked = json.dumps([SCHEMA, tree, search.engine, search.timers, search.depth])
+        asked = json.dumps(
+            [SCHEMA, tree, date.today().isoformat(), search.engine, search.timers, search.depth]
+        )
         return ToldStore(tree, f"{sha256(asked.encode()).hexdigest()}-told-json")
 
     def read(self) -> ToldModel | None:
@@ -97,7 +103,6 @@ def _model(found: Any) -> ToldModel:
     return ToldModel(
         {str(id): ToldProperty(**row) for id, row in found["properties"].items()},
         list(map(str, found["systems"])),
-        list(map(str, found["order"])),
         {str(id): _verdict(row) for id, row in found["verdicts"].items()},
     )
 
@@ -105,4 +110,6 @@ def _model(found: Any) -> ToldModel:
 def _verdict(row: Mapping[str, Any]) -> ToldVerdict:
     codes = {name: Exit(row[name]) for name in ("code", "strict_code")}
     lists = {name: tuple(row[name]) for name in ("covers", "fired")}
-    return ToldVerdict(**{**row, **codes, **lists})
+    gravity = row["gravity"]
+    how = Gravity(**{**gravity, "within": tuple(gravity["within"])})
+    return ToldVerdict(**{**row, **codes, **lists, "gravity": how})
