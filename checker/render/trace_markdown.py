@@ -2,7 +2,7 @@
 
 from xml.sax.saxutils import escape
 
-from rovercheck.checker.render.again import RepeatedTicks, folded
+from rovercheck.checker.render.periods import RepeatedTicks, folded
 from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import (
     OMITTED,

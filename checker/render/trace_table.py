@@ -6,8 +6,8 @@ from io import StringIO
 from rich.text import Text
 
 from rovercheck.checker.io.console import UnmarkedConsole
-from rovercheck.checker.render.again import folded
 from rovercheck.checker.render.hanging_indent import hanging
+from rovercheck.checker.render.periods import folded
 from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import (
     OMITTED,
