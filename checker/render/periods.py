@@ -136,6 +136,10 @@ def _alike(trace: Trace, at: Sequence[Mapping[str, int]]) -> list[int]:
     return found
 
 
+Interval = tuple[int, int, int]
+"""Where a repetition starts and ends, and its period."""
+
+
 class _Choice:
     """Which repetitions of a sequence of ticks are left out, such that most rows of the story are."""
 
@@ -143,28 +147,37 @@ class _Choice:
         self.told = told
         """How many rows of the story begin at each tick."""
         self.rows = [0, *accumulate(told)]
-        self.found = [one for one in repetitions(kinds) if self._worth(one) is not None]
+        self.found = [one for one in repetitions(kinds) if self._whole(one, 0, len(told))]
+        self.known: dict[tuple[int, int], tuple[int, list[Interval]]] = {}
 
-    def best(self, low: int, high: int) -> list[tuple[int, int, int]]:
-        """Repetitions between two ticks, by start, end and period.
+    def best(self, low: int, high: int) -> list[Interval]:
+        """Repetitions between two ticks.
 
         They do not overlap, but that one may lie in the first period of another, the one that is told.
         """
-        chosen = self._chosen([c for one in self.found if (c := self._worth(one, low, high)) is not None])
-        more = []
-        ends = [(low, low, 0), *chosen, (high, high, 0)] if chosen else []
-        for (_, left, _), (right, _, _) in pairwise(ends):
-            more += self.best(left, right)
-        for start, _, period in chosen:
-            more += self.best(start, start + period)
-        return [*chosen, *more]
+        return self._best(low, high)[1]
 
-    def _worth(self, one: Repetition, low: int = 0, high: int | None = None) -> tuple[int, int, int] | None:
+    def _best(self, low: int, high: int) -> tuple[int, list[Interval]]:
+        """How many rows are left out at most, and by which repetitions."""
+        if (low, high) not in self.known:
+            able = {whole for one in self.found if (whole := self._whole(one, low, high)) is not None}
+            inner = {one: self._best(one[0], one[0] + one[2]) for one in able}
+            chosen = self._chosen({one: self._left_out(one) - 1 + inner[one][0] for one in able})
+            found = [piece for one in chosen for piece in (one, *inner[one][1])]
+            gain = sum(self._left_out(one) - 1 for one in found)
+            ends = [(low, low, 0), *chosen, (high, high, 0)] if chosen else []
+            for (_, left, _), (right, _, _) in pairwise(ends):
+                more = self._best(left, right)
+                gain, found = gain + more[0], found + more[1]
+            self.known[low, high] = gain, found
+        return self.known[low, high]
+
+    def _whole(self, one: Repetition, low: int, high: int) -> Interval | None:
         """The whole periods of a repetition between two ticks; None where little would be left out.
 
         The first one begins where a row of the story does, if any can.
         """
-        start, end = max(one.start, low), min(one.end, len(self.told) if high is None else high)
+        start, end = max(one.start, low), min(one.end, high)
         times, spare = divmod(end - start, one.period)
         if times <= TIMES:
             return None
@@ -172,18 +185,22 @@ class _Choice:
         whole = start, start + times * one.period, one.period
         return whole if self._left_out(whole) >= LEAST else None
 
-    def _left_out(self, whole: tuple[int, int, int]) -> int:
+    def _left_out(self, whole: Interval) -> int:
         start, end, period = whole
         return self.rows[end] - self.rows[start + period]
 
-    def _chosen(self, able: Sequence[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
-        """Weighted interval scheduling: of intervals the set without overlaps that leaves most rows out."""
-        by_end = sorted(set(able), key=lambda one: (one[1], one[0], one[2]))
+    def _chosen(self, able: Mapping[Interval, int]) -> list[Interval]:
+        """Weighted interval scheduling: of intervals with gains a set without overlaps that gains most."""
+        by_end = sorted(able, key=lambda one: (one[1], one[0], one[2]))
         ends = [end for _, end, _ in by_end]
-        best: list[tuple[int, tuple[tuple[int, int, int], ...]]] = [(0, ())]
+        best: list[tuple[int, Interval | None, int]] = [(0, None, 0)]
         for number, one in enumerate(by_end):
             before = bisect_right(ends, one[0], hi=number)
-            gain, chain = best[before]
-            gain += self._left_out(one) - 1
-            best.append((gain, (*chain, one)) if gain > best[-1][0] else best[-1])
-        return list(best[-1][1])
+            gain = best[before][0] + able[one]
+            best.append((gain, one, before) if gain > best[-1][0] else (best[-1][0], None, number))
+        chosen: list[Interval] = []
+        at = len(by_end)
+        while at:
+            _, one_of, at = best[at]
+            chosen += [one_of] if one_of is not None else []
+        return chosen[::-1]

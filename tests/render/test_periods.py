@@ -169,4 +169,4 @@ def test_a_minute_of_the_rover_is_told_on_a_screen() -> None:
 def test_a_long_run_is_read_at_once() -> None:
     """Nothing here takes time in the square of the ticks: 20,000 of them, no two neighbours alike."""
     beeps = "." + "".join("x" * (i % 7) + "." * (i % 11) for i in range(2_500))
-    assert len(list(folded(run(beeps)))) < 3 * 77 + 10
+    assert len(list(folded(run(beeps)))) < 2 * 4 * 77, "a period of 77 pairs, and less than another one"
