@@ -10,6 +10,7 @@ from io import StringIO
 
 from vcd.gtkw import GTKWColor, GTKWFlag, GTKWSave
 
+from rovercheck.checker.render.trace_vcd import about
 from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
@@ -33,6 +34,8 @@ def render(trace: Trace, dump: str = "") -> str:
     out = StringIO()
     save = GTKWSave(out)
     end = trace.ms(len(trace))
+    for told in about(trace):
+        save.comment(told)
     save.dumpfile(dump or f"{_plain(trace.property.id or trace.system.name)}.vcd", abspath=False)
     save.timestart(0)
     loop = {"a": trace.ms(trace.loop + 1)} if trace.loop is not None else {}

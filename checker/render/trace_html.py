@@ -33,7 +33,13 @@ def _head(trace: Trace, title: str) -> Part:
     body = Markup("<h1>{}</h1><p>{}</p><p><b>{}</b> in {}</p>").format(
         title, trace.property.text, _verdict(trace).capitalize(), heading(trace)
     )
-    return Part(body, (LANDSCAPE,))
+    return Part(body + why(trace), (LANDSCAPE,))
+
+
+def why(trace: Trace) -> Markup:
+    """The reason on record as a paragraph; nothing where there is none."""
+    because = trace.property.because
+    return Markup('<p class="why"><b>Why:</b> {}</p>').format(because) if because else Markup()
 
 
 def _verdict(trace: Trace) -> str:

@@ -58,6 +58,8 @@ Part = tuple[Text, Text]
 
 def _parts(trace: Trace) -> Iterator[Part]:
     none = Text()
+    if trace.property.because:
+        yield none, Text(f"Why: {trace.property.because}")
     yield none, Text(heading(trace), style="bold")
     if chosen := start_values(trace):
         yield none, Text("fixed: " + ", ".join(f"{n} = {v}" for n, v in chosen))

@@ -2,10 +2,9 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import groupby
 
 from rovercheck.checker.render.lanes import Tone
-from rovercheck.checker.render.reasons import meaning, reasons
+from rovercheck.checker.render.reasons import determined_by, reasons
 from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
 from rovercheck.checker.render.timeline.limits import Limits, thresholds, time_limits
 from rovercheck.checker.render.timeline.model import (
@@ -99,6 +98,7 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         wrong=tuple(_wrong(trace)),
         ending=ending(trace),
         cause=determined_by(trace),
+        because=trace.property.because,
     )
 
 
@@ -172,13 +172,6 @@ def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits
         shots=tuple(_shots(trace, name)),
         doc=trace.system.variables[name].doc,
     )
-
-
-def determined_by(trace: Trace) -> str:
-    """Which inputs determine the end of the run, and what that means; empty where nobody examined that."""
-    told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
-    spans = [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]
-    return f"Determined by {'; '.join(spans)}. {meaning(trace)}" if spans else meaning(trace)
 
 
 def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> bool:

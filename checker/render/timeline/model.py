@@ -98,7 +98,7 @@ class Timeline:
 
     ``constant`` are the variables that never change and have no lane, ``quiet`` the stretches of ticks
     (first, last) in which nothing happens but running counters.  ``wrong`` says what is false at the end, and
-    ``cause`` which inputs determine it, where that was examined.
+    ``cause`` which inputs determine it, where that was examined; ``because`` is why, as it is written.
     """
 
     property: str
@@ -113,6 +113,7 @@ class Timeline:
     wrong: tuple[str, ...] = ()
     ending: str = ""
     cause: str = ""
+    because: str = ""
 
     def ms(self, tick: int) -> int:
         """The time at the end of a tick."""

@@ -121,6 +121,8 @@ def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tup
     """Texts below the lanes with their class: what is false, what repeats, what never changes."""
     for wrong in timeline.wrong:
         yield wrap(f"✗ {wrong}", letters * 9 // 10, "    "), "wrong"
+    if timeline.because:
+        yield wrap(f"Why: {timeline.because}", letters, "    "), ""
     if timeline.cause:
         yield wrap(f"● {timeline.cause}", letters, "    "), ""
     if timeline.ending:
