@@ -34,9 +34,9 @@ def render(trace: Trace, dump: str = "") -> str:
     out = StringIO()
     save = GTKWSave(out)
     end = trace.ms(len(trace))
+    save.dumpfile(dump or f"{_plain(trace.property.id or trace.system.name)}.vcd", abspath=False)
     for told in about(trace):
         save.comment(told)
-    save.dumpfile(dump or f"{_plain(trace.property.id or trace.system.name)}.vcd", abspath=False)
     save.timestart(0)
     loop = {"a": trace.ms(trace.loop + 1)} if trace.loop is not None else {}
     save.zoom_markers(min(0.0, -math.log2(max(1, end) / _WIDTH)), end, **loop)
