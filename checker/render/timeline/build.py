@@ -4,8 +4,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.periods import RepeatedTicks, folded
 from rovercheck.checker.render.reasons import determined_by, reasons
-from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
+from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, value
 from rovercheck.checker.render.timeline.limits import Limits, thresholds, time_limits
 from rovercheck.checker.render.timeline.model import (
     Lane,
@@ -84,6 +85,7 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
     values = {name: _values(shown, name) for name in _names(shown)}
     still = _constant(shown, values)
     limits, spans = thresholds(_compared(trace)), time_limits(trace)
+    told = list(folded(shown))
     lanes = [_lane(shown, n, v, limits, spans) for n, v in values.items() if n not in still]
     return Timeline(
         property=trace.property.id,
@@ -93,7 +95,8 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         clock=trace.clock(),
         lanes=(*sorted(lanes, key=_place(shown)), *parts(trace)),
         constant=tuple(_unchanging(trace, still)),
-        quiet=tuple((row.first, row.last) for row in rows(shown) if isinstance(row, Quiet)),
+        quiet=tuple((row.first, row.last) for row in told if isinstance(row, Quiet)),
+        repeated=tuple(row for row in told if isinstance(row, RepeatedTicks)),
         loop=trace.loop,
         wrong=tuple(_wrong(trace)),
         ending=ending(trace),

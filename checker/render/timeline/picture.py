@@ -113,6 +113,9 @@ def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
     if any(lane.needed for lane in timeline.lanes):
         box = tag("rect", x=1, y=2, width=22, height=11, class_="tl-needed")
         yield box, "input that determines the end, whatever the others are"
+    if timeline.repeated:
+        box = tag("rect", x=1, y=2, width=22, height=11, rx=3, class_="tl-fold")
+        yield box, "the ticks under the bracket again, so often"
     if timeline.loop is not None:
         yield tag("rect", y=2, width=24, height=11, class_="tl-loop"), "repeats for ever"
 
@@ -127,6 +130,8 @@ def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tup
         yield wrap(f"● {timeline.cause}", letters, "    "), ""
     if timeline.ending:
         yield wrap(timeline.ending, letters), ""
+    for fold in placed.axis.folds:
+        yield wrap(f"{fold.what[:1].upper()}{fold.what[1:]}.", letters, "    "), ""
     if timeline.constant:
         told = (f"{name} = {shown}".replace(" ", "\N{NO-BREAK SPACE}") for name, shown in timeline.constant)
         same = ", ".join(told)
@@ -136,12 +141,15 @@ def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tup
 
 def scale(timeline: Timeline, placed: PlacedLane) -> str:
     """Whether the picture is to scale, and what is left out."""
-    if not placed.axis.breaks:
+    if not (placed.axis.breaks or placed.axis.folds):
         if isinstance(timeline.clock, int):
             return f"To scale: every tick is {timeline.clock} ms; the time is that at its end."
         return "Ticks of unlike lengths are drawn alike; the time is that at the end of a tick."
     left_out = shortened(placed.axis.breaks)
-    return (
-        f"Not to scale: {left_out} of {timeline.ticks} ticks, in which only running counters change, "
-        "are shortened at the zigzag lines."
-    )
+    again = sum(fold.count for fold in placed.axis.folds)
+    told = [
+        f"{left_out} of {timeline.ticks} ticks, in which only running counters change, are shortened at the "
+        "zigzag lines" if left_out else "",
+        f"{again} of {timeline.ticks} ticks, which repeat others, are drawn as boxes" if again else "",
+    ]  # fmt: skip
+    return f"Not to scale: {'; '.join(filter(None, told))}."
