@@ -68,17 +68,23 @@ class RepeatedTicks:
 
 def folded(trace: Trace) -> Iterator[Row | RepeatedTicks]:
     """The rows of a trace; those of ticks that repeat the ones before them, several times, are one."""
+    return (row for row, _ in unfolded(trace))
+
+
+def unfolded(trace: Trace) -> Iterator[tuple[Row | RepeatedTicks, tuple[Row, ...]]]:
+    """The rows of ``folded``, each repetition with the rows that it stands for; other rows with none."""
     repeated = periods(trace)
-    left = {row.first: row for row in repeated}
     ends = {tick for row in repeated for tick in (row.first - row.period - 1, row.first - 1, row.last)}
-    hidden = 0
+    left, inside = list(repeated), list[Row]()
     for row in rows(trace, frozenset(ends)):
         first = row.number if isinstance(row, StoryEvent) else row.first
-        if first in left:
-            hidden = left[first].last
-            yield left.pop(first)
-        if first > hidden:
-            yield row
+        if left and first > left[0].last:
+            yield left.pop(0), tuple(inside)
+            inside = []
+        if left and first >= left[0].first:
+            inside.append(row)
+        else:
+            yield row, ()
 
 
 def periods(trace: Trace) -> tuple[RepeatedTicks, ...]:

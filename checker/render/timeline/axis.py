@@ -76,7 +76,7 @@ def _short(x: float) -> float:
 
 def _shortened(timeline: Timeline, wide: int) -> tuple[Marks, float]:
     """The stretches to shorten, and the width of the other ticks."""
-    marks = dict.fromkeys(_without_loop_start(timeline), SHORTENED)
+    marks = dict.fromkeys(without_loop_start(timeline), SHORTENED)
     marks |= {(row.first, row.last): FOLDED for row in timeline.repeated}
     while True:
         rest = timeline.ticks - shortened(marks)
@@ -87,7 +87,7 @@ def _shortened(timeline: Timeline, wide: int) -> tuple[Marks, float]:
         marks = worth
 
 
-def _without_loop_start(timeline: Timeline) -> Iterator[tuple[int, int]]:
+def without_loop_start(timeline: Timeline) -> Iterator[tuple[int, int]]:
     """Quiet stretches of two ticks or more, cut where the part that repeats starts."""
     for first, last in timeline.quiet:
         start = timeline.loop
