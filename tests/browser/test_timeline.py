@@ -17,9 +17,8 @@ NOW = ".tl-now"
 
 def names(page: Page) -> list[str]:
     """The lanes that are seen, from top to bottom."""
-    return page.locator(".tl-lane:visible .tl-name").evaluate_all(
-        "all => all.map(one => one.textContent.replace('●', '').trim())"
-    )
+    told = page.locator(".tl-lane:visible .tl-name").all_text_contents()
+    return [name.replace("●", "").strip() for name in told]
 
 
 def value(page: Page, lane: str, cursor: int = 0) -> str:
