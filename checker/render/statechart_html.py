@@ -9,7 +9,8 @@ from rovercheck.spec_model.lang.chart import Chart
 
 FORMAT = Format("html", "statechart", ".html", "the picture as a page of its own; no outside resources")
 FRAME = """\
-body{max-width:1900px}.drawn{overflow:auto;background:#fff;touch-action:pan-x pan-y}.drawn svg{display:block;height:auto}
+body{max-width:1900px}
+.drawn{overflow:auto;background:#fff;touch-action:pan-x pan-y}.drawn svg{display:block;height:auto}
 """
 SIGNS = Markup("<p>{}</p>").format(
     "; ".join((*LEGEND, "▸ all lines: a click shows the whole list of actions"))

@@ -202,7 +202,8 @@ const timelineLanes = (() => {
     }
     for (const tick of new Set(wanted)) {
       if (tick < first || tick > last) continue;
-      const middle = (edges[tick - 1] + edges[tick]) / 2, half = width(String(ms(tick))) / 2 + 5;
+      const half = width(String(ms(tick))) / 2 + 5, centre = (edges[tick - 1] + edges[tick]) / 2;
+      const middle = tick === first || tick === last ? Math.max(from + half, Math.min(to - half, centre)) : centre;
       if (taken.some(([a, b]) => middle + half > a && middle - half < b)) continue;
       taken.push([middle - half, middle + half]);
       found.push([tick, middle]);
