@@ -40,17 +40,18 @@ const timelineLanes = (() => {
     return { edges, closed };
   };
 
-  /** The pixels of a tick with which all of a run fits into `room`. */
+  /** The pixels of a tick with which all of a run fits into `room`, found by halving. */
   const fit = (count, stretches, opened, room) => {
-    let closed = stretches.filter((_, i) => !opened.has(i));
-    for (;;) {
-      const marks = closed.reduce((sum, one) => sum + PX[one.kind], 0);
-      const rest = count - closed.reduce((sum, one) => sum + one.last - one.first + 1, 0);
-      const unit = Math.max((room - marks) / Math.max(rest, 1), 0.02);
-      const worth = closed.filter((one) => (one.last - one.first + 1) * unit > PX[one.kind]);
-      if (worth.length === closed.length) return Math.min(unit, 240);
-      closed = worth;
+    const closed = stretches.filter((_, i) => !opened.has(i)).map((one) => [one.last - one.first + 1, PX[one.kind]]);
+    const rest = count - closed.reduce((sum, [length]) => sum + length, 0);
+    const total = (unit) => closed.reduce((sum, [length, mark]) => sum + Math.min(length * unit, mark), rest * unit);
+    let low = 0, high = 240;
+    if (total(high) <= room) return high;
+    for (let i = 0; i < 40; i += 1) {
+      const middle = (low + high) / 2;
+      if (total(middle) > room) high = middle; else low = middle;
     }
+    return low;
   };
 
   /** The runs of a lane outside closed folds: [first, last, label, tone, low, high]. */

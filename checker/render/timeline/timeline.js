@@ -377,7 +377,8 @@
             : [`${one.last - one.first + 1} ticks`, "≈"];
           handle.append(make("rect", { x: left, y: 0, width: right - left, height: HEAD, class: "tl-hover" }));
           if (fold) {
-            handle.append(write(x, 13, this.wide - right > 100 ? `× ${one.times} more` : `× ${one.times}`, "tl-loop-text", middle));
+            const wide = this.wide - right > 100;
+            handle.append(write(wide ? x : left + 3, 13, wide ? `× ${one.times} more` : `× ${one.times}`, "tl-loop-text", wide ? middle : {}));
             group.append(make("path", { d: `M${this.edges[one.first - one.period - 1]} 20v-4H${left - 2}v4`, class: "tl-bracket" }));
           }
           handle.append(write(x, HEAD - 18, lines[0], fold ? "tl-tick" : "tl-ms", middle), write(x, HEAD - 5, lines[1], "tl-ms", middle));
