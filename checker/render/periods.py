@@ -103,7 +103,7 @@ def periods(trace: Trace) -> tuple[RepeatedTicks, ...]:
     for low, high in pairwise(ends):
         search = _Choice(every[low:high], told[low:high])
         found += [(start + low, end + low, period) for start, end, period in search.best(0, high - low)]
-    return tuple(_repeated(trace, at, *one) for one in sorted(found))
+    return tuple(sorted((_repeated(trace, at, *one) for one in found), key=lambda row: row.first))
 
 
 def _repeated(

@@ -3,7 +3,7 @@
 from markupsafe import Markup
 
 from rovercheck.checker.render.page import Part, own, page
-from rovercheck.checker.render.statechart_svg import LEGEND, STYLE, inline
+from rovercheck.checker.render.statechart_svg import LEGEND, PAGE_STYLE, inline
 from rovercheck.checker.results.format import Format
 from rovercheck.spec_model.lang.chart import Chart
 
@@ -22,4 +22,4 @@ SCRIPTS = ("zoom.js", "picture.js", "unfold.js")
 def render(chart: Chart) -> str:
     """The page."""
     body = Markup('<main class="drawn" tabindex="0">{}</main>{}').format(Markup(inline(chart)), SIGNS)
-    return page(chart.name, [Part(body, (STYLE, FRAME), (*map(own, SCRIPTS), FITTED))])
+    return page(chart.name, [Part(body, (PAGE_STYLE, FRAME), (*map(own, SCRIPTS), FITTED))])

@@ -39,9 +39,6 @@ STYLE = """
 .statechart .label{fill:#1f3558}
 .statechart .number{font-size:9.5px;fill:#35507a}
 .statechart .note{fill:#6a7080}
-.statechart .folded{cursor:pointer}.statechart .folded .action:last-child{fill:#1f4e9c;font-weight:bold}
-.statechart .all-actions{display:none;cursor:pointer}.statechart .all-actions.open{display:inline}
-.statechart .all-actions rect{fill:#fffef9;stroke:#1f4e9c;stroke-width:1.6}
 .statechart .active>rect{fill:#ffeeb8;stroke:#b86a00;stroke-width:2.2}
 .statechart .composite.active>rect,.statechart .region.active>rect{fill:#fffaf0}
 .statechart .taken .line{stroke:#d08a80;stroke-width:2}
@@ -50,6 +47,12 @@ STYLE = """
 .statechart .fired .head,.statechart .fired .dot{fill:#c3241c}
 .statechart .fired .label,.statechart .fired .number{fill:#a81b14}
 """
+PAGE_STYLE = f"""{STYLE}
+.statechart .folded{{cursor:pointer}}.statechart .folded .action:last-child{{fill:#1f4e9c;font-weight:bold}}
+.statechart .all-actions{{display:none;cursor:pointer}}.statechart .all-actions.open{{display:inline}}
+.statechart .all-actions rect{{fill:#fffef9;stroke:#1f4e9c;stroke-width:1.6}}
+"""
+"""With that of lists of actions that unfold."""
 LEGEND = (
     "dashed box: parallel region, its number the order of execution",
     "number at the start of a transition: its priority",
@@ -69,7 +72,7 @@ def render(chart: Chart, active: Collection[str] = (), fired: Collection[TakenTr
 
 
 def inline(chart: Chart) -> str:
-    """The picture for a page that has ``STYLE`` and says what ``LEGEND`` says.
+    """The picture for a page that has ``PAGE_STYLE`` and says what ``LEGEND`` says.
 
     Its parts are found by attributes, as it has no ids: ``data-state`` is the dotted path of a state,
     ``data-arrow`` the name of a ``ChartArrow`` (on every piece of its line).  The classes ``active``,

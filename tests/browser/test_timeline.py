@@ -93,7 +93,8 @@ def test_a_phone_sees_the_whole_run_and_scrolls_the_lanes_and_not_the_page(opene
     opened.set_viewport_size({"width": 390, "height": 844})
     seen = "[document.documentElement.scrollWidth, frame.scrollWidth - frame.clientWidth, frame.scrollLeft]"
     frame = "(() => { const frame = document.querySelector('.tl-frame'); return " + seen + "; })()"
-    assert opened.evaluate(frame)[:2] == [390, 0], "it fits"
+    until(opened, f"{frame}[1] === 0")
+    assert opened.evaluate(frame)[0] == 390, "it fits"
     for _ in range(6):
         opened.locator(".tl-in").click()
     opened.locator(".tl-first").click()
@@ -313,7 +314,7 @@ def test_a_repeated_period_is_a_box_that_opens_by_a_click(silence: Page) -> None
     wide, _, room = edges(silence)
     assert wide <= room, "3,003 ticks fit"
     words = silence.locator(".tl-axis").text_content() or ""
-    assert "× 56 more" in words and "67–2978" in words and "1320–59560" in words
+    assert "× 56" in words and "67–2978" in words and "1320–59560" in words
     silence.locator(".tl-plot .tl-fold").click()
     assert silence.locator(".tl-fold-button").get_attribute("aria-expanded") == "true"
     assert edges(silence)[0] > 5_000

@@ -44,7 +44,9 @@ def part(trace: Trace, *, everything: bool = False) -> Part:
         data=data(_data(ordered), "tl-data"),
     )
     styles = (own("timeline.css"), sheet(THEMED))
-    return Part(Markup(body), styles, (of_page("zoom.js"), own("lanes.js"), own("timeline.js")))
+    return Part(
+        Markup(body), styles, (of_page("zoom.js"), own("lanes.js"), own("marks.js"), own("timeline.js"))
+    )
 
 
 def own(name: str) -> str:

@@ -72,14 +72,23 @@ const timelineLanes = (() => {
     return found;
   };
 
+  /** Slanted strokes within a box, each cut at its sides. */
+  const hatch = (x, y, right, bottom) => {
+    const tall = bottom - y, strokes = [];
+    for (let start = Math.floor(x) - tall; start < right; start += 6) {
+      const a = Math.max(start, x), b = Math.min(start + tall, right);
+      if (b - a > 1) strokes.push(`M${a} ${bottom - (a - start)}L${b} ${bottom - (b - start)}`);
+    }
+    return strokes.join("");
+  };
+
   /** Draws the lanes between two edges of what is seen into one group. */
   class Drawing {
-    constructor(edges, closed, from, to, hatch) {
+    constructor(edges, closed, from, to) {
       this.edges = edges;
       this.cuts = closed.map((one) => (edges[one.first - 1] + edges[one.last]) / 2);
       this.from = from;
       this.to = to;
-      this.hatch = hatch;
       this.group = make("g", {});
     }
 
@@ -123,7 +132,7 @@ const timelineLanes = (() => {
         if (clear !== at) [at, label] = [clear, fitting(run.label, right - clear - 4)];
         if (run.tone === "degraded") {
           const x = label ? at + width(label) + 4 : left;
-          if (right > x) this.add(make("rect", { x, y, width: right - x, height: tall, fill: `url(#${this.hatch})` }));
+          if (right > x) this.add(make("path", { d: hatch(x, y, Math.min(right, this.to), y + tall), class: "tl-hatch" }));
         }
         if (label) this.add(write(at, y + tall / 2 + 4, label, `tl-label tl-on-${run.tone}`));
       }

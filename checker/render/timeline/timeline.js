@@ -1,8 +1,8 @@
 "use strict";
 (() => {
-  const { make, tip, write, place, fit, pieces, labelled, tickAt, Drawing, TITLE, GAP } = timelineLanes;
-  const NUMBER = /^(-?[\d.]+)( ?[^\d/].*)?$/, HEAD = 50, ZOOM = 1.5, WIDEST = 400;
-  let made = 0;
+  const { make, place, fit, pieces, labelled, tickAt, Drawing, TITLE, GAP } = timelineLanes;
+  const { stretch, scale, overview, HEAD } = timelineMarks;
+  const NUMBER = /^(-?[\d.]+)( ?[^\d/].*)?$/, ZOOM = 1.5, WIDEST = 400;
 
   /** What a lane shows in a tick; between the ends of a steady count, the number that belongs there. */
   function shown(runs, tick) {
@@ -50,8 +50,6 @@
       this.second = 0;
       this.events = this.changes();
       if (!this.count) return;
-      made += 1;
-      this.hatch = `tl-hatch-${made}`;
       root.classList.add("tl-ready");
       this.tick = this.count;
       this.arrange();
@@ -215,7 +213,7 @@
       this.one("difference").textContent = this.second
         ? `B tick ${this.second}, ${this.ms(this.second)} ms; A − B = ${ticks} tick${Math.abs(ticks) === 1 ? "" : "s"}, ${ms} ms`
         : "";
-      this.overview();
+      overview(this);
     }
 
     choose(wanted) {
@@ -304,15 +302,12 @@
 
     later() {
       if (this.waiting) return;
-      this.waiting = requestAnimationFrame(() => { this.waiting = 0; this.draw(); this.overview(); });
+      this.waiting = requestAnimationFrame(() => { this.waiting = 0; this.draw(); overview(this); });
     }
 
     draw() {
       const from = this.frame.scrollLeft, to = Math.min(this.wide, from + this.room);
-      const drawing = new Drawing(this.edges, this.closed, from, to, this.hatch), loop = this.data.loop;
-      const pattern = make("pattern", { id: this.hatch, width: 6, height: 6, patternUnits: "userSpaceOnUse" },
-        make("path", { d: "M-1 1L1 -1M0 6L6 0M5 7L7 5", class: "tl-hatch" }));
-      drawing.add(make("defs", {}, pattern));
+      const drawing = new Drawing(this.edges, this.closed, from, to), loop = this.data.loop;
       if (loop !== null) {
         drawing.add(make("rect", { x: this.edges[loop], y: 0, width: this.wide - this.edges[loop], height: this.height, class: "tl-loop" }));
       }
@@ -324,7 +319,7 @@
         const shots = lane.shots.filter(([tick]) => !this.hidden(tick));
         drawing.lane({ ...lane, needed, shots }, this.pieces[i], this.tops[i], this.tall[i]);
       });
-      for (const one of this.closed) this.stretch(drawing, one);
+      for (const one of this.closed) stretch(this, drawing, one);
       if (loop === null) {
         const x = this.edges[this.count - 1];
         drawing.add(make("rect", { x, y: 1, width: Math.max(2, this.wide - x - 1), height: this.height - 2,
@@ -334,82 +329,8 @@
         drawing.add(make("rect", { class: `tl-${kind}`, y: 0, width: 0, height: this.height }));
       }
       this.plot.replaceChildren(drawing.group);
-      this.axis.replaceChildren(this.scale(labels, from, to));
+      this.axis.replaceChildren(scale(this, labels, from, to));
       this.cursors();
-    }
-
-    /** A box or a zigzag instead of ticks that are not drawn to scale; a click opens it. */
-    stretch(drawing, one) {
-      const left = this.edges[one.first - 1], right = this.edges[one.last], middle = (left + right) / 2;
-      const number = this.data.stretches.indexOf(one);
-      const whole = make("g", { class: "tl-open", "data-stretch": number }, tip(`${one.what}. Click to unfold.`));
-      if (one.kind === "fold") {
-        whole.append(make("rect", { x: left + 3, y: 1, width: right - left - 6, height: this.height - 2, rx: 4, class: "tl-fold" }));
-        const low = this.height / 2;
-        whole.append(write(middle + 4, low, one.told, "tl-fold-text",
-          { "text-anchor": "middle", transform: `rotate(-90 ${middle + 4} ${low})` }));
-      } else {
-        const d = `M${middle} 0` + Array.from({ length: Math.floor(this.height / 6) }, (_, k) => `l${k % 2 ? 4 : -4} 6`).join("");
-        whole.append(make("rect", { x: left, y: 0, width: right - left, height: this.height, class: "tl-hover" }));
-        for (const [kind, dx] of [["tl-gap", 0], ["tl-cut", -3], ["tl-cut", 3]]) {
-          whole.append(make("path", { d, class: kind, transform: `translate(${dx} 0)` }));
-        }
-      }
-      drawing.add(whole);
-    }
-
-    /** Numbers and times of ticks, and what is shortened, above the lanes. */
-    scale(labels, from, to) {
-      const group = make("g", {}), middle = { "text-anchor": "middle" };
-      for (const [tick, x] of labels) {
-        group.append(write(x, HEAD - 18, tick, "tl-tick", middle), write(x, HEAD - 5, this.ms(tick), "tl-ms", middle));
-      }
-      this.data.stretches.forEach((one, number) => {
-        const left = this.edges[one.first - 1], right = this.edges[one.last], x = (left + right) / 2;
-        const handle = make("g", { class: "tl-open", "data-stretch": number }, tip(`${one.what}. Click to ${this.opened.has(number) ? "fold" : "unfold"}.`));
-        if (this.opened.has(number)) {
-          const start = Math.max(left, from), end = Math.min(right, to);
-          if (end <= start) return;
-          handle.append(make("rect", { x: start, y: 2, width: end - start, height: 15, rx: 3, class: "tl-handle" }));
-          if (end - start > 40) handle.append(write((start + end) / 2, 13, end - start > 130 ? `▸◂ fold ${one.first}–${one.last}` : "▸◂", "tl-ms", middle));
-        } else if (this.closed.includes(one)) {
-          const fold = one.kind === "fold", lines = fold ? [`${one.first}–${one.last}`, `${this.ms(one.first - 1)}–${this.ms(one.last)}`]
-            : [`${one.last - one.first + 1} ticks`, "≈"];
-          handle.append(make("rect", { x: left, y: 0, width: right - left, height: HEAD, class: "tl-hover" }));
-          if (fold) {
-            const wide = this.wide - right > 100;
-            handle.append(write(wide ? x : left + 3, 13, wide ? `× ${one.times} more` : `× ${one.times}`, "tl-loop-text", wide ? middle : {}));
-            group.append(make("path", { d: `M${this.edges[one.first - one.period - 1]} 20v-4H${left - 2}v4`, class: "tl-bracket" }));
-          }
-          handle.append(write(x, HEAD - 18, lines[0], fold ? "tl-tick" : "tl-ms", middle), write(x, HEAD - 5, lines[1], "tl-ms", middle));
-        } else return;
-        group.append(handle);
-      });
-      const told = this.data.loop !== null ? "↻ repeats for ever" : this.data.wrong ? "✗ false here" : "shown here";
-      const x = this.data.loop !== null ? Math.max(this.edges[this.data.loop], from) + 4 : this.wide - 2;
-      const kind = this.data.loop !== null ? "tl-loop-text" : this.data.wrong ? "tl-fail-text" : "tl-end-text";
-      group.append(write(x, 13, told, kind, { "text-anchor": this.data.loop !== null ? "start" : "end" }));
-      return group;
-    }
-
-    /** The whole run in a strip, to scale, with the part that is seen. */
-    overview() {
-      const strip = this.one("overview"), wide = strip.getBoundingClientRect().width || 600, high = 26, scale = wide / this.count;
-      strip.setAttribute("viewBox", `0 0 ${wide} ${high}`);
-      const parts = [];
-      const block = (first, last, kind) => parts.push(make("rect", {
-        x: (first - 1) * scale, y: 0, width: Math.max(1.5, (last - first + 1) * scale), height: high, class: kind }));
-      this.data.stretches.forEach((one) => one.kind === "fold" && block(one.first, one.last, "tl-fold"));
-      const columns = new Set(this.events.map((tick) => Math.floor((tick - 1) * scale)));
-      const d = [...columns].map((x) => `M${x + 0.5} 7V${high - 7}`).join("");
-      parts.push(make("path", { d, class: "tl-strip-events" }));
-      if (this.data.loop === null) block(this.count, this.count, this.data.wrong ? "tl-strip-fail" : "tl-strip-end");
-      else block(this.data.loop + 1, this.count, "tl-strip-loop");
-      if (this.second) block(this.second, this.second, "tl-second");
-      if (this.tick) block(this.tick, this.tick, "tl-cursor");
-      const first = tickAt(this.edges, this.frame.scrollLeft), last = tickAt(this.edges, this.frame.scrollLeft + this.room);
-      block(first, last, "tl-window");
-      strip.replaceChildren(...parts);
     }
 
     /** Moves what is seen to the place in the strip. */
