@@ -43,7 +43,9 @@ def picture(timeline: Timeline) -> str:
         legend,
         *foot,
     ]
-    return document(wide, y + 8, sheet(PRINTED, bool(placed.axis.folds)) + OWN, timeline.property or "A run", body)
+    return document(
+        wide, y + 8, sheet(PRINTED, bool(placed.axis.folds)) + OWN, timeline.property or "A run", body
+    )
 
 
 def _head(timeline: Timeline, wide: int) -> list[tuple[str, str, int]]:
