@@ -163,8 +163,9 @@ def of_trace(trace: Trace) -> CiReport:
         word="violated" if broken else "proved",
         level=FindingLevel.FAILED if broken else FindingLevel.PASSED,
         evidence=f"{evidence} on {trace.system.name}",
+        because=trace.property.because,
         place=trace.property.place,
-        trace=trace,
+        trace=trace.with_reason(""),
         details={"ticks": str(count)},
     )
     return CiReport((one,), 1)

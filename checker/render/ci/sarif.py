@@ -13,6 +13,7 @@ from typing import Any
 from urllib.parse import quote
 
 from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel
+from rovercheck.checker.render.periods import RepeatedTicks, folded
 from rovercheck.checker.render.story import (
     Quiet,
     Repeats,
@@ -20,7 +21,6 @@ from rovercheck.checker.render.story import (
     StoryEvent,
     ending,
     false_parts,
-    rows,
     start_of,
 )
 from rovercheck.checker.results.trace import Trace
@@ -70,7 +70,7 @@ def code_flow(finding: CiFinding) -> tuple[list[Location], str]:
 
 def _steps(trace: Trace, finding: CiFinding) -> Iterator[Location]:
     now = 1
-    for row in rows(trace):
+    for row in folded(trace):
         match row:
             case StoryEvent():
                 now = row.number
@@ -78,6 +78,9 @@ def _steps(trace: Trace, finding: CiFinding) -> Iterator[Location]:
             case Quiet(first, _, _, counters):
                 now = first
                 yield _step(finding.place, finding.id, row.what, now, _values(counters), "unimportant")
+            case RepeatedTicks():
+                now = row.first
+                yield _step(finding.place, finding.id, row.what, now, _values(row.progress), "unimportant")
             case Repeats(first, _):
                 now = first
                 yield _step(finding.place, finding.id, row.what, now, {}, "essential")
