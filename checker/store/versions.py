@@ -46,7 +46,8 @@ def deciding() -> str:
     """The key.  Raises ``OSError`` without the sources, and where one has changed since it was loaded."""
     digest = sha256()
     for path in sources():
-        if path.stat().st_mtime > _LOADED:
+        status = path.stat()
+        if max(status.st_mtime, status.st_ctime) > _LOADED:  # also what was put there with an older date
             raise ChangedMeanwhile(f"{path} has changed since it was loaded.")
         digest.update(f"{path.relative_to(_ROOT).as_posix()}\0".encode())
         digest.update(sha256(path.read_bytes()).digest())

@@ -20,7 +20,7 @@ from rovercheck.spec_model.lang.words import after, held, minimum, previous
 GO, PUSH, DIAL = flag("go"), flag("push"), var("dial", integer(0, 2))
 LEFT, RIGHT, AGE, SUM = flag("left"), flag("right"), var("age", integer(0, 3)), var("sum", integer(0, 4))
 CHOICE, SPARE = var("choice", integer(0, 1)), var("spare", integer(0, 2))
-ELAPSED = var("elapsed", integer(10, 30, "ms"))
+ELAPSED = var("elapsed", integer(20, 21, "ms"))
 NAME = "Small"
 
 
@@ -51,10 +51,14 @@ def _chart(draw: DrawFn, name: str, targets: Sequence[Var]) -> Chart:
             entry=_actions(draw, targets),
             during=_actions(draw, targets) if draw(st.booleans()) else [],
             transitions=[
-                to(draw(st.sampled_from(names)), when=_guards(draw)) for _ in range(draw(st.integers(1, 2)))
+                *(
+                    to(draw(st.sampled_from(names)), when=_guards(draw))
+                    for _ in range(draw(st.integers(0, 1)))
+                ),
+                to(following, when=_guards(draw)),
             ],
         )
-        for one in names
+        for one, following in zip(names, (*names[1:], names[0]), strict=True)
     ]
     return Chart(name, states, default="A")
 
