@@ -9,7 +9,7 @@ from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.naive import successors, vectors
 
-MOST = 500
+MOST = 150
 """States after which the search is given up, so that a test does not take long."""
 
 

@@ -61,7 +61,9 @@ def loaded(tmp_path: Path) -> set[str]:
     )
     assert run.returncode == 0, run.stderr
     paths = (Path(line).resolve() for line in run.stdout.splitlines())
-    return {p.relative_to(ROOT).as_posix() for p in paths if p.is_relative_to(ROOT) and ".venv" not in p.parts}
+    return {
+        p.relative_to(ROOT).as_posix() for p in paths if p.is_relative_to(ROOT) and ".venv" not in p.parts
+    }
 
 
 def test_every_module_that_a_search_imports_enters_or_it_is_said_why_not(tmp_path: Path) -> None:
@@ -91,7 +93,9 @@ def test_charts_and_properties_are_no_part_of_what_decides() -> None:
     names = [path.resolve().relative_to(ROOT).as_posix() for path in sources()]
     assert len(names) > 100
     allowed = ("properties/forms.py", "properties/pasttime.py", "properties/reduce.py", "spec_model/lang/")
-    assert [n for n in names if n.startswith(("properties/", "spec_model/")) and not n.startswith(allowed)] == []
+    assert [
+        n for n in names if n.startswith(("properties/", "spec_model/")) and not n.startswith(allowed)
+    ] == []
 
 
 # --- files that change -------------------------------------------------------------------------------
