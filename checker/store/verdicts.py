@@ -26,8 +26,6 @@ from rovercheck.spec_model.lang.system import System
 SCHEMA = "rovercheck/stored-verdict/1"
 _LARGEST = 4 << 20
 """Bytes of an entry."""
-MEANINGLESS = ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError
-"""What is raised by an entry of another shape."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ class VerdictStore:
         try:
             found: Any = json.loads(whole)
             return StoredVerdict(verdict(found), str(found["system"]), tuple(map(str, found["together"])))
-        except MEANINGLESS:
+        except entries.MEANINGLESS:
             return None
 
     def write(self, name: str | None, found: Verdict, system: str, together: Sequence[str] = ()) -> None:
@@ -125,7 +123,7 @@ class VerdictStore:
         whole = None if name is None or self.recheck else entries.read(name, code=False)
         try:
             return None if whole is None else necessary_inputs(json.loads(whole))
-        except MEANINGLESS:
+        except entries.MEANINGLESS:
             return None
 
     def write_necessary(self, name: str | None, found: NecessaryInputs) -> None:

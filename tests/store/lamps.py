@@ -8,7 +8,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import StoredRun, Unknown
 from rovercheck.checker.store.verdicts import VerdictStore
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import SearchSettings, events
+from rovercheck.checker.verify.searches import NO_LIMITS, SearchSettings, events
 from rovercheck.properties.forms import Property, always, never, reachable, responds
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Chart, State, to
@@ -62,7 +62,7 @@ def decided(
     *,
     engine: Engine | str | None = None,
     traces: bool = False,
-    limits: Limits = Limits(),
+    limits: Limits = NO_LIMITS,
 ) -> list[Result]:
     """The results of a check of the lamp."""
     systems = {ON: system} if isinstance(system, System) else system

@@ -6,9 +6,9 @@ asked for one by one (``checker.store.verdicts``).
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from hashlib import sha256
-from typing import Any
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from rovercheck.checker.cache import entries
 from rovercheck.checker.commands.shared.codes import Exit
@@ -72,8 +72,12 @@ class ToldStore:
             return None
         try:
             return _model(json.loads(whole))
-        except (ValueError, KeyError, TypeError, AttributeError):
+        except entries.MEANINGLESS:
             return None
+
+    def forget(self) -> None:
+        """Keep nothing of what was told."""
+        entries.remove(self.name)
 
     def add(self, model: ToldModel) -> None:
         """Keep what was told now beside what was before, unless a file has changed meanwhile."""
@@ -95,7 +99,7 @@ def keepable(one: ToldVerdict) -> bool:
 
 def _model(found: Any) -> ToldModel:
     return ToldModel(
-        {str(id): ToldProperty(**row) for id, row in found["properties"].items()},
+        {str(id): _record(ToldProperty, row) for id, row in found["properties"].items()},
         list(map(str, found["systems"])),
         list(map(str, found["order"])),
         {str(id): _verdict(row) for id, row in found["verdicts"].items()},
@@ -105,4 +109,30 @@ def _model(found: Any) -> ToldModel:
 def _verdict(row: Mapping[str, Any]) -> ToldVerdict:
     codes = {name: Exit(row[name]) for name in ("code", "strict_code")}
     lists = {name: tuple(row[name]) for name in ("covers", "fired")}
-    return ToldVerdict(**{**row, **codes, **lists})
+    return _record(ToldVerdict, {**row, **codes, **lists})
+
+
+Record = TypeVar("Record", ToldProperty, ToldVerdict)
+
+
+def _record(kind: type[Record], row: Mapping[str, Any]) -> Record:
+    """The record with these fields.  Raises ``TypeError`` where one is of another type."""
+    made = kind(**row)
+    for one in fields(made):
+        if not _is(getattr(made, one.name), one.type):
+            raise TypeError(f"{one.name} is {getattr(made, one.name)!r}, no {one.type}")
+    return made
+
+
+def _is(value: object, wanted: Any) -> bool:
+    if isinstance(wanted, type) and not get_args(wanted):
+        return type(value) is wanted
+    match get_origin(wanted), get_args(wanted):
+        case (kind, words) if kind is Literal:
+            return any(value == word for word in words)
+        case (kind, (member, _)) if kind is tuple:
+            return isinstance(value, tuple) and all(_is(one, member) for one in value)
+        case (kind, (key, member)) if kind is Mapping:
+            return isinstance(value, dict) and all(_is(k, key) and _is(v, member) for k, v in value.items())
+        case _, either:
+            return any(_is(value, one) for one in either)
