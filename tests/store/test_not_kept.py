@@ -1,7 +1,5 @@
 """What is never kept: what is unknown, or was taken back; and what others asked for is not theirs."""
 
-import os
-import signal
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
@@ -12,11 +10,12 @@ import pytest
 
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.engines import Limits, Progress, Timers
+from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.process.pool import Pool, PoolEvent
 from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Proved, Unknown, Unreachable
 from rovercheck.checker.store.verdicts import VerdictStore
 from rovercheck.checker.store.verdicts import store as chosen
-from rovercheck.checker.verify.portfolio import Disagreement
+from rovercheck.checker.verify.portfolio import Disagreement, turns
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.search_worker import PropertyDecided, StaysInDomains
 from rovercheck.checker.verify.searches import SearchSettings, events, searches
@@ -31,6 +30,7 @@ from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
 from tests.store.lamps import ON, PROPERTIES, decided, lamp, of, store, told
 from tests.store.naive_engine import NaiveEngine
 from tests.store.test_forged import TRUTH
+from tests.verify.test_searches import Erratic
 
 here = pytest.mark.usefixtures("no_child")
 pytestmark = pytest.mark.usefixtures("folder")
@@ -43,17 +43,15 @@ def kept(folder: Path) -> list[Path]:
 
 @dataclass
 class Lazy:
-    """An engine that leaves some goals open, and does something before it answers."""
+    """An engine that leaves some goals open."""
 
     opened: Callable[[str], bool] = lambda _: True
-    before: Callable[[], None] = lambda: None
     NAME: str = "lazy"
     SUMMARY: str = "for tests"
 
     def check(
         self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
     ) -> Mapping[str, Answer]:
-        self.before()
         found = NaiveEngine().check(system, goals, limits, progress)
         return {n: Open("for tests", 3) if self.opened(n) else a for n, a in found.items()}
 
@@ -82,26 +80,13 @@ def test_a_store_writes_no_unknown_verdict(folder: Path) -> None:
     assert kept(folder) == []
 
 
-def _die() -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def _wrong() -> None:
-    raise ValueError("no such thing")
-
-
-@pytest.mark.parametrize("how", ["timeout", "crash", "raise"])
+@pytest.mark.parametrize("how", ["hang", "crash", "raise"])
 def test_of_a_search_that_ends_otherwise_nothing_is_kept(how: str, folder: Path) -> None:
     """In a child."""
-    from time import sleep
-
-    acts = {"timeout": lambda: sleep(60), "crash": _die, "raise": _wrong}
-    limits = Limits(seconds=0.5 if how == "timeout" else None)
-    from rovercheck.checker.process.faults import Fault, listening
-
     faults: list[Fault] = []
+    limits = Limits(seconds=0.5 if how == "hang" else None)
     with listening(faults.append):
-        found = decided(lamp(), store(), engine=Lazy(lambda _: False, acts[how]), limits=limits)
+        found = decided(lamp(), store(), engine=Erratic(ON, how), limits=limits)
     assert {one.verdict.word for one in found} == {"unknown"} and len(found) == len(PROPERTIES)
     assert kept(folder) == []
 
@@ -249,23 +234,14 @@ def test_a_proof_whose_certificate_is_rejected_is_not_kept(
 
 @here
 def test_where_engines_disagree_nothing_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from rovercheck.checker.verify import portfolio
-
     class Liar(NaiveEngine):
         def check(self, *args: Any) -> Mapping[str, Answer]:
             return {g.name: Unreachable(PROOF) for g in args[1]}
 
-    both = {"naive": NaiveEngine(), "liar": Liar(NAME="liar")}
-    from rovercheck.checker.verify.portfolio import answers
-
-    assert answers is not None and portfolio is not None
-    monkeypatch.setattr("rovercheck.checker.engines.engines", lambda: both)
-    try:
-        decided(lamp(), VerdictStore("all"), [of("lit-violated")], engine="all")
-    except Disagreement:
-        assert kept(folder) == []
-    else:
-        pytest.skip("engines are found in another way")
+    monkeypatch.setattr(turns, "engines", lambda: {"naive": NaiveEngine(), "liar": Liar(NAME="liar")})
+    with pytest.raises(Disagreement):
+        decided(lamp(), VerdictStore("all"), engine="all")
+    assert kept(folder) == []
 
 
 # --- who asked ---------------------------------------------------------------------------------------
