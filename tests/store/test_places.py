@@ -143,8 +143,8 @@ go, lit = flag("go"), flag("lit")
 hall = in_order("hall", Block("Light", [assign(lit, go)]))
 SYSTEMS = [hall]
 PROPERTIES = [
-    always("YES", "", that=lit | ~lit, covers=["R"], on="hall"),
-    never("NO", "", that=lit, covers=["R"], on="hall"),
+    always("YES", "Yes.", that=lit | ~lit, covers=["R"], on="hall"),
+    never("NO", "No.", that=lit, covers=["R"], on="hall"),
 ]
 """
 
@@ -162,7 +162,7 @@ def test_two_commands_at_a_time_in_one_folder(folder: Path, tmp_path: Path) -> N
     assert len(codes) == 1 and len(said) == 1, (codes, said)
     assert '"violated"' in next(iter(said)) and not list(folder.glob("*.part"))
     for path in folder.glob("*-verdict-json.o"):
-        assert store().read(path.stem) is not None
+        assert entries.read(path.stem, code=False) is not None
 
 
 # --- files that change meanwhile ---------------------------------------------------------------------
