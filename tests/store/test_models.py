@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from rovercheck.checker.cache import entries
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.verify import decide as deciding
@@ -279,3 +280,26 @@ def test_an_assumption_that_excludes_all_runs_is_refused_every_time(
         code = hall.check()
         said = capsys.readouterr()
         assert code is not Exit.AS_EXPECTED and "allows no first tick" in said.err, said
+
+
+def test_a_forged_entry_is_found_by_recheck_with_exit_code_3(
+    hall: Hall, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hall.check("--no-premises")
+    proofs, violations = list[bytes](), list[str]()
+    for file in folder.glob("*-verdict-json.o"):
+        contents = entries.read(file.stem, code=False) or b""
+        found = json.loads(contents) if contents.startswith(b"{") else {}
+        if found.get("word") == "proved" and "run" not in found["because"]:
+            proofs.append(json.dumps({**found, "together": ["LIT"]}).encode())
+        if found.get("word") == "violated":
+            violations.append(file.stem)
+    assert proofs and len(violations) == 2, "under the question, and under the slice"
+    for name in violations:
+        entries.write(name, proofs[0])
+    capsys.readouterr()
+    assert hall.check("--no-premises") is Exit.FAILED, "a plain check believes the seal"
+    assert "LIT is proved; expected: violated" in capsys.readouterr().out
+    assert hall.check("--no-premises", "--recheck") is Exit.INTERNAL
+    assert "LIT is kept as proved, and decided anew it is violated" in capsys.readouterr().err
+    assert hall.check("--no-premises") is Exit.AS_EXPECTED, "it is kept no longer"
