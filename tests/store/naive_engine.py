@@ -9,6 +9,8 @@ from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.naive import successors, vectors
 
+_Reached = tuple[dict[str, int], dict[str, int], tuple[dict[str, int], ...]]
+"""A state, the frozen values, and the inputs of the ticks up to it."""
 MOST = 150
 """States after which the search is given up, so that a test does not take long."""
 
@@ -29,11 +31,13 @@ class NaiveEngine:
         keys = [v.name for v in (*system.frozen, *system.variables)]
         names = [v.name for v in system.inputs]
         found: dict[str, Answer] = {}
-        frontier = [({**system.init, **frozen}, frozen, ()) for frozen in vectors(system.frozen)]
+        frontier: list[_Reached] = [
+            ({**system.init, **frozen}, frozen, ()) for frozen in vectors(system.frozen)
+        ]
         seen = {tuple(at[k] for k in keys) for at, _, _ in frontier}
         depth = 0
         while frontier:
-            depth, following = depth + 1, []
+            depth, following = depth + 1, list[_Reached]()
             for at, frozen, run in frontier:
                 for after in successors(system, at):
                     longer = (*run, {n: after[n] for n in names})

@@ -27,7 +27,8 @@ NAME = "Small"
 def _guards(draw: DrawFn) -> Expr:
     return draw(
         st.sampled_from(
-            [GO, ~GO, PUSH, GO & ~PUSH, DIAL >= 1, DIAL == 2, CHOICE == 1, after(2 * ticks), held(GO, 2 * ticks),
+            [GO, ~GO, PUSH, GO & ~PUSH, DIAL >= 1, DIAL == 2, CHOICE == 1, after(2 * ticks),
+             held(GO, 2 * ticks),
              LEFT, RIGHT & GO, AGE >= 2]
         )
     )  # fmt: skip
@@ -128,7 +129,8 @@ def edits(draw: DrawFn, system: System) -> System:
 
 FORMS: tuple[Form, ...] = (
     forms.Always(SUM <= 3), forms.Never(LEFT & GO), forms.Reachable(AGE == 3), forms.Reachable(SUM == 4),
-    forms.Responds(GO, LEFT, 2 * ticks), forms.HoldsAfter(GO, 2 * ticks, LEFT), forms.HoldsFor(LEFT, ~PUSH, ticks),
+    forms.Responds(GO, LEFT, 2 * ticks), forms.HoldsAfter(GO, 2 * ticks, LEFT),
+    forms.HoldsFor(LEFT, ~PUSH, ticks),
     forms.LeavesOnlyIf(LEFT, GO), forms.EntersOnlyIf(AGE == 2, PUSH | GO), forms.Precedes(PUSH, AGE == 1),
     forms.Until(LEFT, AGE < 3, PUSH), forms.Always(DIAL <= 2), forms.Never(previous(GO) & (AGE == 3)),
 )  # fmt: skip

@@ -271,7 +271,8 @@ def test_every_field_of_a_state_enters_but_its_place() -> None:
         State("A", states=[inner]),
     ]
     assert {f.name for f in fields(State)} == {
-        "name", "entry", "during", "exit", "states", "transitions", "junctions", "default", "parallel", "place",
+        "name", "entry", "during", "exit", "states", "transitions", "junctions", "default", "parallel",
+        "place",
     }  # fmt: skip
     assert len({key(plain), *map(key, others)}) == 1 + len(others)
     assert key(plain) == key(State("A", states=[State("In")], default="In", place=Place("x.py", 3)))
@@ -350,7 +351,8 @@ def test_what_only_looks_alike_has_other_keys(alike: tuple[object, ...]) -> None
 VALUES = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=5)
     | st.fractions() | st.binary(max_size=4),
-    lambda inner: st.lists(inner, max_size=4).map(tuple) | st.dictionaries(st.text(max_size=3), inner, max_size=3),
+    lambda inner: st.lists(inner, max_size=4).map(tuple)
+    | st.dictionaries(st.text(max_size=3), inner, max_size=3),
     max_leaves=12,
 )  # fmt: skip
 

@@ -34,7 +34,8 @@ VERDICTS: tuple[Definite, ...] = (
     Violated(StoredRun(Run({}, ({"go": 0},) * 5), 100, loop=2, trapped=3), "bdd"),
 )
 JUNK: tuple[Any, ...] = (
-    None, True, False, 0, -1, 1, 1e999, -1e999, float("nan"), 0.5, 10**30, -(10**30), 10**4000, "", "x", "proved",
+    None, True, False, 0, -1, 1, 1e999, -1e999, float("nan"), 0.5, 10**30, -(10**30), 10**4000, "", "x",
+    "proved",
     "\ud800", [], {}, [[]], [0], [1, 2, 3], {"a": 1}, [None], "\x00", [[10**9, {}]], [[1, {"go": 10**40}]],
 )  # fmt: skip
 

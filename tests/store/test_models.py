@@ -42,7 +42,8 @@ hall = in_order("hall", lamp, bell, text="A hall.")
 LIT = never("LIT", "Never lit.", that=lit, covers=["R1"], on=hall)
 ON = always("ON", "Lit where it is on.", that=implies(lamp.active("On"), lit), covers=["R1"], on=hall)
 RUNG = reachable("RUNG", "Rings.", that=rung, covers=["R2"], on=hall)
-STILL = always("STILL", "Never while lit.", that=implies(rung & ~push, bell.active("Rings")), covers=["R2"], on=hall)
+RUNG_ON = bell.active("Rings")
+STILL = always("STILL", "Never still.", that=implies(rung & ~push, RUNG_ON), covers=["R2"], on=hall)
 """
 LAMP, BELL = {"LIT", "ON"}, {"RUNG", "STILL"}
 BASELINE = '[LIT]\\nverdict = "violated"\\nbecause = "It is a lamp."\\n'.replace("\\n", "\n")

@@ -141,23 +141,14 @@ def test_of_a_system_that_leaves_a_domain_nothing_is_kept(engine: str, folder: P
         assert kept(folder) == []
 
 
-class Told:
-    """The child of a pool: what it sends is said here."""
-
-    def __init__(self, *sent: object) -> None:
-        self.sent = sent
-
-    def __call__(self, orders: object, again: object) -> Generator[PoolEvent, None, None]:
-        for number, message in self.sent:  # type: ignore[misc]
-            if isinstance(message, PoolEvent):
-                yield message
-            else:
-                yield PoolEvent(number, message)
-
-
 def heard(monkeypatch: pytest.MonkeyPatch, tasks: Sequence[Task], *sent: tuple[int, object]) -> list[Result]:
     """The results of searches whose children send that."""
-    monkeypatch.setattr(Pool, "run", lambda self, orders, again: Told(*sent)(orders, again))
+
+    def said(*_: object) -> Generator[PoolEvent, None, None]:
+        for number, one in sent:
+            yield one if isinstance(one, PoolEvent) else PoolEvent(number, one)
+
+    monkeypatch.setattr(Pool, "run", said)
     systems = {task.system.name: task.system for task in tasks}
     found = searches(tasks, systems, SearchSettings("naive", store=store()))
     return [one for one in found if isinstance(one, Result)]

@@ -5,6 +5,7 @@ import resource
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -68,8 +69,8 @@ def test_a_folder_that_is_read_only_is_read(folder: Path, monkeypatch: pytest.Mo
         raise PermissionError(30, "Read-only file system")
 
     for name in ("utime", "replace"):
-        monkeypatch.setattr(entries.os, name, refused)
-    monkeypatch.setattr(entries.tempfile, "mkstemp", refused)
+        monkeypatch.setattr(os, name, refused)
+    monkeypatch.setattr(tempfile, "mkstemp", refused)
     assert twice() == 0
     before = {path.name for path in folder.iterdir()}
     assert told(decided(lamp(GO & PUSH), store()))

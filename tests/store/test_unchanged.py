@@ -1,7 +1,7 @@
 """The unchanged rover: what is told the second time is what was told the first time, or is decided anew."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,6 +14,7 @@ from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest
 from rovercheck.checker.commands.check.unchanged import ToldModel, ToldStore, keepable
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import SearchOptions, SelectionOptions
+from rovercheck.checker.store.tree import tree_key
 from tests.store.test_entries import MODEL, TOLD
 
 pytestmark = pytest.mark.usefixtures("folder", "no_child")
@@ -72,7 +73,7 @@ def known() -> ToldModel:
     return ToldModel(properties, list(systems()), [], {})
 
 
-def kept_of(known: ToldModel, ids: Sequence[str]) -> None:
+def kept_of(known: ToldModel, ids: Iterable[str]) -> None:
     """Keep that some properties were told."""
     from dataclasses import replace
 
@@ -244,10 +245,9 @@ def test_an_edit_of_any_file_is_noticed(
     quick: Rover, known: ToldModel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept_of(known, SOME)
-    real = unchanged.tree_key
     monkeypatch.setattr(unchanged, "tree_key", lambda: "edited")
     quick.check(*SOME)
     assert not quick.served
-    monkeypatch.setattr(unchanged, "tree_key", real)
+    monkeypatch.setattr(unchanged, "tree_key", tree_key)
     quick.check(*SOME)
     assert quick.served and MODEL.verdicts
