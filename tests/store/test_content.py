@@ -408,7 +408,7 @@ class Shade(Enum):
 @pytest.mark.parametrize(
     "value",
     [object(), lambda: 1, Odd(3), key, int, Stricter(GO), iter(()), complex(1, 2), bytearray(b"1")],
-    ids=repr,
+    ids=lambda value: type(value).__name__,
 )
 def test_what_cannot_be_told_whole_has_no_key(value: object) -> None:
     for within in (value, (value,), {"a": value}):

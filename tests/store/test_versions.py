@@ -3,13 +3,21 @@
 import os
 import subprocess
 import sys
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
 
 from rovercheck.checker.store import versions
 from rovercheck.checker.store.tree import FOLDERS, tree_key
-from rovercheck.checker.store.versions import SOURCES, ChangedMeanwhile, deciding, sources
+from rovercheck.checker.store.versions import (
+    PACKAGES,
+    SOURCES,
+    ChangedMeanwhile,
+    deciding,
+    installed,
+    sources,
+)
 
 ROOT = Path(__file__).parents[2]
 LEFT_OUT = {
@@ -54,21 +62,22 @@ for name, module in sorted(sys.modules.items()):
 
 
 def loaded(tmp_path: Path) -> set[str]:
-    """The files of this project that a search in a child has loaded, by their path in it."""
+    """The files that a search in a child has loaded."""
     environment = {**os.environ, "ROVERCHECK_CACHE": str(tmp_path / "cache")}
     run = subprocess.run(
         [sys.executable, "-c", LOADED], capture_output=True, text=True, cwd=ROOT, env=environment, check=False
     )
     assert run.returncode == 0, run.stderr
     paths = (Path(line).resolve() for line in run.stdout.splitlines())
-    return {
-        p.relative_to(ROOT).as_posix() for p in paths if p.is_relative_to(ROOT) and ".venv" not in p.parts
-    }
+    return {p.as_posix() for p in paths}
 
 
 def test_every_module_that_a_search_imports_enters_or_it_is_said_why_not(tmp_path: Path) -> None:
     known = {path.resolve().relative_to(ROOT).as_posix() for path in sources()}
-    found = loaded(tmp_path)
+    paths = (Path(path) for path in loaded(tmp_path))
+    found = {
+        p.relative_to(ROOT).as_posix() for p in paths if p.is_relative_to(ROOT) and ".venv" not in p.parts
+    }
     assert "checker/verify/search_worker.py" in found and "spec_model/lang/lower/__init__.py" in found
     strange = sorted(
         name
@@ -79,6 +88,24 @@ def test_every_module_that_a_search_imports_enters_or_it_is_said_why_not(tmp_pat
     assert not strange, "in neither versions.SOURCES nor LEFT_OUT"
     used = [left for left in LEFT_OUT if any(name == left or name.startswith(f"{left}/") for name in found)]
     assert used == [*LEFT_OUT], "some of LEFT_OUT are not imported any more"
+
+
+NO_PART = {
+    "typing_extensions": "records of JSON documents",
+}
+"""Packages of others that a search imports and that no verdict depends on, and why."""
+
+
+def test_every_package_that_a_search_imports_enters_or_it_is_said_why_not(tmp_path: Path) -> None:
+    packages = packages_distributions()
+    tops = {
+        path.partition("site-packages/")[2].partition("/")[0].partition(".")[0] for path in loaded(tmp_path)
+    }
+    found = {name.lower().replace("-", "_") for top in tops for name in packages.get(top, ())}
+    assert {"llvmlite", "numpy", "z3_solver", "python_sat", "oxidd"} <= found
+    assert sorted(found - {*PACKAGES} - {*NO_PART}) == []
+    named = [name for name in PACKAGES if any(one.lower().startswith(f"{name}-") for one in installed())]
+    assert named == [*PACKAGES], "one of them is not seen"
 
 
 def test_what_is_named_is_there() -> None:
