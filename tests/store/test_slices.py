@@ -15,7 +15,7 @@ from rovercheck.checker.results.verdict import Open, Reached, StoredRun, Unknown
 from rovercheck.checker.store.verdicts import VerdictStore
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import SearchesPlanned, SearchSettings, events
+from rovercheck.checker.verify.searches import SearchSettings, events
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.errors import ModelError
@@ -83,16 +83,14 @@ def decided(
     props: Sequence[Property], systems: Mapping[str, System], store: VerdictStore | None, traces: bool = True
 ) -> Decided:
     engine = NaiveEngine()
-    heard, error, planned = dict[str, Told](), "", 0
+    heard, error = dict[str, Told](), ""
     try:
         for one in events(props, systems, SearchSettings(engine, Limits(), 1, store=store, traces=traces)):
-            if isinstance(one, SearchesPlanned):
-                planned = one.searches
             if isinstance(one, Result):
                 heard[one.property.id] = _told(one)
     except ModelError as wrong:
         error = str(wrong)
-    return Decided(heard, error, planned and len(engine.asked))
+    return Decided(heard, error, len(engine.asked))
 
 
 def _told(one: Result) -> Told:
