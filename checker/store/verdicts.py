@@ -19,7 +19,7 @@ from rovercheck.checker.results.trace import NecessaryInputs
 from rovercheck.checker.results.verdict import StoredRun, Verdict, Violated
 from rovercheck.checker.store.content import ContentKeys, NoKey
 from rovercheck.checker.store.verdict_json import Definite, entry, necessary_inputs, necessary_row, verdict
-from rovercheck.checker.store.versions import deciding
+from rovercheck.checker.store.versions import as_loaded, deciding
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 from rovercheck.spec_model.lang.system import System
 
@@ -112,7 +112,7 @@ class VerdictStore:
 
     def write(self, name: str | None, found: Verdict, system: str, together: Sequence[str] = ()) -> None:
         """Keep a verdict, if it is one and not too large."""
-        if name is None or not isinstance(found, Definite):
+        if name is None or not isinstance(found, Definite) or not as_loaded():
             return
         whole = json.dumps(entry(found, system, together), separators=(",", ":")).encode()
         if len(whole) <= _LARGEST:

@@ -149,9 +149,9 @@ def test_a_wrong_certificate_shows_nothing() -> None:
     before = decided(system, kept)
     files = Path(_folder()).glob("*.o")
     assert told(before) == TRUTH and list(files)
-    forge(of("beam-violated"), Proved(PROOF, "naive"), system)
     name = kept.about("proof", system, of("beam-violated"))
     for certificates in (b"", b"{}", b"\xff" * 100, b"[" * 100_000):
+        forge(of("beam-violated"), Proved(PROOF, "naive"), system)
         kept.write_proof(name, certificates)
         with pytest.raises(StoreContradiction):
             decided(system, store(recheck=True), [of("beam-violated")])

@@ -181,6 +181,13 @@ def test_where_what_decides_has_changed_nothing_is_kept(
     assert twice() > 0 and not list(folder.glob("*-verdict-json.o"))
 
 
+def test_where_it_changes_during_a_search_nothing_is_kept(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(verdicts, "as_loaded", lambda: False)
+    assert twice() > 0 and not list(folder.glob("*-verdict-json.o"))
+
+
 def test_another_version_of_what_decides_does_not_see_what_is_kept(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from importlib.metadata import packages_distributions
 from pathlib import Path
+from time import time
 
 import pytest
 
@@ -14,6 +15,7 @@ from rovercheck.checker.store.versions import (
     PACKAGES,
     SOURCES,
     ChangedMeanwhile,
+    as_loaded,
     deciding,
     installed,
     sources,
@@ -174,6 +176,19 @@ def test_a_module_edited_after_it_was_loaded_gives_no_key(project: Path) -> None
     os.utime(project / "checker/search/one.py")
     with pytest.raises(ChangedMeanwhile, match=r"one\.py has changed"):
         now()
+
+
+def test_it_is_seen_that_a_module_was_edited_later(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Between the key and the end of a search: a child may have loaded the new one."""
+    monkeypatch.setattr(versions, "_LOADED", time())
+    assert not as_loaded(), "these files were made just now"
+    monkeypatch.setattr(versions, "_LOADED", time() + 1)
+    assert as_loaded()
+    later = time() + 5
+    os.utime(project / "checker/search/one.py", (later, later))
+    assert not as_loaded()
+    (project / "checker/search/one.py").unlink()
+    assert not as_loaded()
 
 
 def test_a_module_put_in_its_place_with_an_old_date_gives_no_key(project: Path) -> None:
