@@ -245,8 +245,7 @@ def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
     if charts != VariantOptions() or search.no_store or os.environ.get(STORE) == "":
         return None
     if (
-        options.recheck
-        or options.changed
+        options.changed
         or options.no_premises
         or options.certify
         or options.certificates
@@ -255,7 +254,11 @@ def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
         return None
     from rovercheck.checker.commands.check.unchanged import ToldStore
 
-    return ToldStore.now(search)
+    kept = ToldStore.now(search)
+    if kept is not None and options.recheck:
+        kept.forget()  # it is told anew by the next check, of what holds now
+        return None
+    return kept
 
 
 def _unchanged(kept: "ToldStore", selection: SelectionOptions, options: CheckOptions) -> Exit | None:
