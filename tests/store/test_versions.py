@@ -180,7 +180,7 @@ def test_a_module_edited_after_it_was_loaded_gives_no_key(project: Path) -> None
 
 def test_it_is_seen_that_a_module_was_edited_later(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Between the key and the end of a search: a child may have loaded the new one."""
-    monkeypatch.setattr(versions, "_LOADED", time())
+    monkeypatch.setattr(versions, "_LOADED", time() - 60)
     assert not as_loaded(), "these files were made just now"
     monkeypatch.setattr(versions, "_LOADED", time() + 1)
     assert as_loaded()
