@@ -27,6 +27,7 @@ LEFT_OUT = {
     "checker/model": "where models and their files are; a run that is kept there is SOURCES' kept_runs",
     "properties/__init__.py": "a docstring",
     "properties/expected.py": "expected verdicts are compared anew every time",
+    "properties/hazards.py": "how grave a finding is, for readers",
     "properties/requirements.py": "texts of requirements, for readers",
     "spec_model/__init__.py": "a docstring",
 }
