@@ -93,7 +93,8 @@ class OneTick:
             solver.pop()
 
     def _meets(self, chosen: Mapping[str, int], under: Sequence[Expr]) -> bool:
-        return self.admits(chosen) and all(evaluate(formula, chosen) for formula in under)
+        met = (evaluate(formula, chosen) for formula in under)
+        return self.admits(chosen) and all(met)
 
     def _values(
         self, model: "z3.ModelRef", standing: Mapping[str, int], under: Sequence[Expr]
@@ -117,16 +118,24 @@ class OneTick:
         needed = [(formula, wanted, frozenset(variables(formula))) for formula, wanted in kept]
 
         def fine(name: str) -> bool:
-            return self.admits(now, name) and all(
-                evaluate(formula, now) == wanted for formula, wanted, names in needed if name in names
-            )
+            met = (evaluate(formula, now) == wanted for formula, wanted, names in needed if name in names)
+            return self.admits(now, name) and all(met)
 
-        for name, before in chosen.items():
-            var = self.open[name]
-            if before == standing[name]:
-                continue
-            for tried in dict.fromkeys((standing[name], var.init, var.domain.low, var.domain.high, before)):
+        def plainer(name: str) -> bool:
+            var, before = self.open[name], now[name]
+            for tried in (standing[name], *(() if name in tidied else (var.init, *_ends(var)))):
                 now[name] = tried
                 if tried in var.domain and fine(name):
-                    break
+                    tidied.add(name)
+                    return bool(tried != before)
+            now[name] = before
+            return False
+
+        tidied: set[str] = set()
+        while any([plainer(name) for name in chosen if now[name] != standing[name]]):
+            pass
         return now
+
+
+def _ends(var: Var) -> tuple[int, int]:
+    return var.domain.low, var.domain.high

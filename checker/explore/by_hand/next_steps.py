@@ -16,6 +16,7 @@ from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.checker.system.instrument.entries import ChartTransitions, Segment, TransitionGroup
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.system.slice import live_before
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -126,7 +127,6 @@ class StepFinder:
 
     def __post_init__(self) -> None:
         seen = watched(self.system, (GoalKind.TRANSITIONS,))
-        self._lowered = lower(seen.system)
         flags: dict[str, dict[str, str]] = {}
         for goal in seen.goals:
             flags.setdefault(goal.part, {})[goal.id.rpartition(".")[2]] = goal.flag.name
@@ -135,6 +135,16 @@ class StepFinder:
             transitions = ChartTransitions(chart)
             named = {flags[chart.name][str(s.number)]: s for s in transitions.segments}
             self._parts.append(_Part(chart, named, transitions))
+        self._lowered = self._only_what_is_told(lower(seen.system))
+
+    def _only_what_is_told(self, system: TransitionSystem) -> TransitionSystem:
+        """The system with those statements of its step on which what is told of a tick depends in it."""
+        if not self._parts:
+            return system
+        told = {flag for part in self._parts for flag in part.segments}
+        told |= {place.name for part in self._parts for place in part.chart.locations}
+        told |= {check.name for check, _ in system.checks}
+        return replace(system, step=live_before(system.step, frozenset(told))[1])
 
     def find(
         self,
