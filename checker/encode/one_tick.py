@@ -12,11 +12,50 @@ import z3
 from rovercheck.checker.encode.bitvector import Encoder, member, symbol, value
 from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
 from rovercheck.spec_model.lang.domain import Bool
-from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.evaluate import OPERATIONS, evaluate
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
+
+
+class ChosenValues:
+    """Values of all that is open in a tick, and what formulas come to with them, each part of them once.
+
+    The reference is ``evaluate``, which goes through what formulas share again and again.
+    """
+
+    def __init__(self, values: Mapping[str, int]) -> None:
+        self.values = values
+        self._known: dict[int, int] = {}
+        self._held: list[Expr] = []  # what is known by its id must stay
+
+    def of(self, expr: Expr) -> int:
+        """The raw value of a formula."""
+        if isinstance(expr, Var):
+            return self.values[expr.name]
+        if isinstance(expr, Const):
+            return expr.value
+        known = self._known.get(id(expr))
+        if known is None:
+            known = self._known[id(expr)] = self._applied(expr)
+            self._held.append(expr)
+        return known
+
+    def _applied(self, expr: Expr) -> int:
+        if not isinstance(expr, Apply):
+            return evaluate(expr, self.values)
+        op, args = expr.op, expr.args
+        if op is _AND:
+            return int(all(self.of(arg) for arg in args))
+        if op is _OR:
+            return int(any(self.of(arg) for arg in args))
+        if op is _ITE:
+            return self.of(args[1] if self.of(args[0]) else args[2])
+        return OPERATIONS[op](*[self.of(arg) for arg in args])
+
+
+_AND, _OR, _ITE = Op.AND, Op.OR, Op.ITE  # an attribute of an enumeration costs as much as the operation
 
 
 class OneTick:
@@ -50,7 +89,8 @@ class OneTick:
 
     def admits(self, chosen: Mapping[str, int], about: str = "") -> bool:
         """Whether values of all that is open are admissible; only what is assumed ``about`` one, if given."""
-        return all(evaluate(part, chosen) for part, names in self._about if not about or about in names)
+        at = ChosenValues(chosen)
+        return all(at.of(part) for part, names in self._about if not about or about in names)
 
     @cached_property
     def _solver(self) -> "z3.Solver":
@@ -86,14 +126,16 @@ class OneTick:
                 yield found
                 if not of:
                     return
-                others = [Apply(Op.NE, (f, Const(evaluate(f, found), f.sort)), Bool()) for f in of]
+                at = ChosenValues(found)
+                others = [Apply(Op.NE, (f, Const(at.of(f), f.sort)), Bool()) for f in of]
                 solver.add(z3.Or([self._encoder(other) for other in others]))
                 stands = False
         finally:
             solver.pop()
 
     def _meets(self, chosen: Mapping[str, int], under: Sequence[Expr]) -> bool:
-        met = (evaluate(formula, chosen) for formula in under)
+        at = ChosenValues(chosen)
+        met = (at.of(formula) for formula in under)
         return self.admits(chosen) and all(met)
 
     def _values(
@@ -118,7 +160,8 @@ class OneTick:
         needed = [(formula, wanted, frozenset(variables(formula))) for formula, wanted in kept]
 
         def fine(name: str) -> bool:
-            met = (evaluate(formula, now) == wanted for formula, wanted, names in needed if name in names)
+            at = ChosenValues(now)
+            met = (at.of(formula) == wanted for formula, wanted, names in needed if name in names)
             return self.admits(now, name) and all(met)
 
         def plainer(name: str) -> bool:

@@ -52,7 +52,7 @@ REQUIRED = {
     "pyvcd": "VCD files",
     "rich": "tables and colours in the terminal",
     "typing-extensions": "records of JSON documents",
-    "watchfiles": "serve sees that a model is saved",
+    "watchfiles": "check --watch and serve see that a model is saved",
     "z3-solver": "the engines bmc, kinduction and localisation",
 }
 """Packages that rovercheck cannot do without, and what for."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import islice
 
-from rovercheck.checker.encode.one_tick import OneTick
+from rovercheck.checker.encode.one_tick import ChosenValues, OneTick
 from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.checker.system.instrument.entries import ChartTransitions, Segment, TransitionGroup
 from rovercheck.checker.system.instrument.goals import GoalKind
@@ -217,10 +217,11 @@ class _Search:
     state: Mapping[str, int]
 
     def __post_init__(self) -> None:
-        self._stands = self.tick.admits(self.now) and all(evaluate(u, self.now) for u in self.under)
+        at = self._standing = ChosenValues(self.now)
+        self._stands = self.tick.admits(self.now) and all(at.of(u) for u in self.under)
         self._sure = {p.chart.name: [f for f in p.segments if self._is_sure(f)] for p in self.parts}
         self._open = {p.chart.name: [f for f in p.segments if self.tick.is_open(f)] for p in self.parts}
-        self._usual = {p.chart.name: self._moved(p, self.now) for p in self.parts}
+        self._usual = {p.chart.name: self._moved(p, at) for p in self.parts}
         self._reads = {n: frozenset(variables(*map(self.tick.after, f))) for n, f in self._open.items()}
 
     def _is_sure(self, flag: str) -> bool:
@@ -240,7 +241,7 @@ class _Search:
     def anyway(self) -> tuple[TakenTransition, ...]:
         """The transitions of charts that can react in one way only."""
         sure = [p for p in self.parts if not self._open[p.chart.name]]
-        return tuple(t for part in sure for t in part.taken(self._on(part, self.now)))
+        return tuple(t for part in sure for t in part.taken(self._on(part, self._standing)))
 
     def _asked(self) -> Iterator[tuple[str, list[Expr], Callable[[dict[str, int]], PossibleStep]]]:
         """Each part that can do several things, with the formulas that tell these apart."""
@@ -252,40 +253,40 @@ class _Search:
                 if not var.hidden and self.tick.is_open(var.name):
                     yield var.name, [self.tick.after(var.name)], partial(self._value, var)
 
-    def _on(self, part: _Part, chosen: Mapping[str, int]) -> list[str]:
+    def _on(self, part: _Part, at: ChosenValues) -> list[str]:
         name = part.chart.name
-        decided = (flag for flag in self._open[name] if evaluate(self.tick.after(flag), chosen))
+        decided = (flag for flag in self._open[name] if at.of(self.tick.after(flag)))
         return [*self._sure[name], *decided]
 
-    def _moved(self, part: _Part, chosen: Mapping[str, int]) -> tuple[TakenTransition, ...]:
+    def _moved(self, part: _Part, at: ChosenValues) -> tuple[TakenTransition, ...]:
         """The transitions of a chart that lead to another state."""
-        return tuple(t for t in part.taken(self._on(part, chosen)) if t.source != t.target)
+        return tuple(t for t in part.taken(self._on(part, at)) if t.source != t.target)
 
-    def _also(
-        self, part: _Part, chosen: Mapping[str, int], changed: Collection[str]
-    ) -> list[TakenTransition]:
+    def _also(self, part: _Part, at: ChosenValues, changed: Collection[str]) -> list[TakenTransition]:
         """What other charts do that they would not do with the inputs as they stand."""
         concerned = (
             p for p in self.parts if p is not part and not self._reads[p.chart.name].isdisjoint(changed)
         )
-        return [t for p in concerned for t in self._moved(p, chosen) if t not in self._usual[p.chart.name]]
+        return [t for p in concerned for t in self._moved(p, at) if t not in self._usual[p.chart.name]]
 
     def _nearest(self, formulas: Sequence[Expr], way: Mapping[str, int]) -> dict[str, int]:
         """Values with the same effect on the formulas, of which few differ from those that stand."""
-        kept = [(formula, evaluate(formula, way)) for formula in formulas]
-        if self._stands and all(evaluate(formula, self.now) == wanted for formula, wanted in kept):
+        at = ChosenValues(way)
+        kept = [(formula, at.of(formula)) for formula in formulas]
+        if self._stands and all(self._standing.of(f) == wanted for f, wanted in kept):
             return dict(self.now)
         return self.tick.nearest(way, self.now, [*kept, *((u, 1) for u in self.under)])
 
     def _reaction(self, part: _Part, chosen: dict[str, int]) -> PossibleStep:
-        on = self._on(part, chosen)
+        at = ChosenValues(chosen)
+        on = self._on(part, at)
         places = [v.name for v in part.chart.locations]
-        after = {part.chart.entered.name: 1, **{n: evaluate(self.tick.after(n), chosen) for n in places}}
+        after = {part.chart.entered.name: 1, **{n: at.of(self.tick.after(n)) for n in places}}
         states = tuple(".".join(path) for path in innermost(part.chart, after))
         before = tuple(".".join(path) for path in innermost(part.chart, self.state))
         numbers = ",".join(str(n) for n in sorted(part.segments[flag].number for flag in on))
         step = self._step(f"{part.chart.name}:{numbers}", part.chart.name, chosen)
-        also = tuple(self._also(part, chosen, step.changed))
+        also = tuple(self._also(part, at, step.changed))
         moves = sorted(states) != sorted(before)
         return replace(step, transitions=part.taken(on), states=states, also=also, moves=moves)
 

@@ -25,7 +25,7 @@
   let picked = [];         // steps that are to happen together
   let listed = "systems";
   let job = null;
-  let busy = false;
+  let waiting = Promise.resolve();
 
   // --- asking the server ---
 
@@ -55,20 +55,19 @@
     show("error", true);
   };
 
-  // One request at a time; what goes wrong is said, and what is shown stays.
-  const act = async (work) => {
-    if (busy) return;
-    busy = true;
-    document.body.setAttribute("aria-busy", "true");
-    try {
-      await work();
-      show("error", false);
-    } catch (error) {
-      failed(error);
-    } finally {
-      busy = false;
+  // One thing after the other, as it was asked for; what goes wrong is said, and what is shown stays.
+  const act = (work) => {
+    waiting = waiting.then(async () => {
+      document.body.setAttribute("aria-busy", "true");
+      try {
+        await work();
+        show("error", false);
+      } catch (error) {
+        failed(error);
+      }
       document.body.removeAttribute("aria-busy");
-    }
+    });
+    return waiting;
   };
 
   const move = (name, given = {}) => act(async () => {
