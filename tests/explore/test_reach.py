@@ -65,7 +65,8 @@ def test_a_search_ends_when_nobody_listens_any_more() -> None:
     sim = (session := Session(systems()["rover"])).simulation
     search = reach(sim.system, sim.state(), session.condition("Relay.B2_actuating"), Limits(), first=True)
     with closing(search):
-        assert next(search) is not None
+        while next(search) is None:
+            pass  # the process has not begun yet
     assert list(search) == []
 
 
