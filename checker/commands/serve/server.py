@@ -6,6 +6,7 @@ done for a page of another origin.
 """
 
 import json
+import os
 import socket
 import sys
 from collections.abc import Mapping
@@ -56,7 +57,6 @@ class PageServer(ThreadingHTTPServer):
     """Serves the page and its requests, each in a thread.  Raises ``OSError`` if the port is in use."""
 
     daemon_threads = True
-    allow_reuse_address = True
 
     def __init__(self, host: str, port: int, api: Api, token: str) -> None:
         self.api, self.host, self.token = api, host, token
@@ -66,7 +66,8 @@ class PageServer(ThreadingHTTPServer):
 
     def server_bind(self) -> None:
         """Bind; the name of the machine is not asked for, which may take long."""
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        if os.name == "posix":  # elsewhere it would share a port that is in use
+            self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         self.socket.bind(self.server_address)
         self.server_address = self.socket.getsockname()
         self.server_name, self.server_port = self.host, self.server_address[1]
