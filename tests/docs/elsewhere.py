@@ -127,6 +127,9 @@ COMMANDS = {
     r"printf 'step 3\nwhy\n' | rovercheck explore Relay": Instead(
         "a pipe of the shell", "rovercheck explore Relay --script session.txt"
     ),
+    r"printf 'step\nnext\nnext 1 2\nreach Relay.B2_actuating\n' | rovercheck explore relay_links": Instead(
+        "a pipe of the shell; tests/cli/test_explore.py gives these commands"
+    ),
     "cc -std=c99 pb1_15.c your_supervisor.c -lm": Instead(
         "needs a supervisor; tests/render compiles such a file with one"
     ),
