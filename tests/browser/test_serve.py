@@ -51,11 +51,16 @@ class Visit:
         return set(found.evaluate_all("parts => parts.map(part => part.dataset.state)"))
 
 
+PATIENCE = 30_000
+"""Milliseconds that a test waits for what must come, on a busy machine."""
+
+
 @pytest.fixture
 def visit(browser: Browser, tmp_path: Path) -> Iterator[Visit]:
     with serving_model(tmp_path / "model", TWO) as served:
         context = browser.new_context(viewport={"width": 1280, "height": 900})
-        context.set_default_timeout(20_000)
+        context.set_default_timeout(PATIENCE)
+        expect.set_options(timeout=PATIENCE)
         page = context.new_page()
         one = Visit(page, served)
         page.on("console", lambda m: one.wrong.append(m.text) if m.type in ("error", "warning") else None)
@@ -64,6 +69,7 @@ def visit(browser: Browser, tmp_path: Path) -> Iterator[Visit]:
         own = (served.server.url, "blob:", "data:")
         page.on("request", lambda r: None if r.url.startswith(own) else one.wrong.append(f"request: {r.url}"))
         page.goto(served.server.url)
+        expect(page.locator("#list .row").first).to_be_visible()
         yield one
         context.close()
         assert one.wrong == []
