@@ -23,6 +23,7 @@ COVERS = Instead("searches for minutes; tests/cli/test_generate_tests.py runs th
 MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
 REVISIONS = Instead("decides all of two revisions; tests/cli/test_diff.py compares those of small models")
+SERVES = Instead("goes on until it is ended; tests/cli/test_serve.py and tests/browser look at it")
 PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
 
 FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
@@ -50,6 +51,7 @@ COMMANDS = {
     "rovercheck compare --system board1 --impl c:FOLDER": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
+    "rovercheck serve --model heater.py": SERVES,
     "rovercheck doctor": Instead("tests/cli/test_doctor.py puts its questions to every engine"),
     "rovercheck generate-tests": COVERS,
     "rovercheck generate-tests --system board1 --cover transitions --cover pairs": COVERS,
@@ -128,6 +130,9 @@ COMMANDS = {
     ),
     r"printf 'step 3\nwhy\n' | rovercheck explore Relay": Instead(
         "a pipe of the shell", "rovercheck explore Relay --script session.txt"
+    ),
+    r"printf 'step\nnext\nnext 1 2\nreach Relay.B2_actuating\n' | rovercheck explore relay_links": Instead(
+        "a pipe of the shell; tests/cli/test_explore.py gives these commands"
     ),
     "cc -std=c99 pb1_15.c your_supervisor.c -lm": Instead(
         "needs a supervisor; tests/render compiles such a file with one"

@@ -53,6 +53,7 @@ REQUIRED = {
     "rich": "tables and colours in the terminal",
     "tomlkit": "accept, which writes into a baseline",
     "typing-extensions": "records of JSON documents",
+    "watchfiles": "check --watch and serve see that a model is saved",
     "z3-solver": "the engines bmc, kinduction and localisation",
 }
 """Packages that rovercheck cannot do without, and what for."""
