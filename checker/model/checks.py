@@ -27,6 +27,10 @@ from rovercheck.spec_model.lang.wellformed.places import name_of, transition_nam
 def system_faults(system: System, place: str) -> Iterator[str]:
     """What has no meaning in a system that is written at a place, a line each."""
     yield from text_faults(system, place)
+    labels = [fault for chart in system.charts for fault in chart.label_faults]
+    if labels:
+        yield from labels
+        return
     try:
         check_system(system)
     except ModelError as error:

@@ -3,11 +3,11 @@
 import ast
 import linecache
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from unicodedata import combining, east_asian_width
 
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.place import Place, here, last_line
 
 _SHOWN = 100
 """Signs of a long line that are shown around an error."""
@@ -34,8 +34,8 @@ class LabelText:
     """A text of the model, and the call that it is written in: its place, and the line that ends it."""
 
     text: str
-    place: Place | None = None
-    last: int = 0
+    place: Place | None = field(default=None, compare=False)
+    last: int = field(default=0, compare=False)
 
     def fault(self, of: str, error: LabelError) -> str:
         """The error with its place before it and the line of the text under it, a caret below."""
@@ -48,6 +48,11 @@ class LabelText:
         many = f"line {line}, " if "\n" in self.text else ""
         before = f"{self.place}: " if self.place else ""
         return f"{before}{of}, {many}column {column} of the label: {error.said}\n{shown}"
+
+
+def label_text(text: str) -> LabelText:
+    """A text that is written where the language is called from."""
+    return LabelText(text, here(), last_line())
 
 
 def _position(text: str, at: int) -> tuple[int, int]:
