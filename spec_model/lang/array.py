@@ -48,7 +48,7 @@ class Array:
             key = exact(index.value) * sort.resolution if isinstance(sort, Num) else key
         if isinstance(key, bool) or key not in self.keys:
             raise ModelError(f"{self.name} has no element {_shown(key)}; it has {self._range}.")
-        return self.variables[self.keys.index(key)]  # type: ignore[arg-type]
+        return self.variables[self.keys.index(key)]
 
     def set(self, index: Key | Expr, value: Operand | str) -> Action:
         """The assignment to one element, which a variable may choose in each tick."""
@@ -62,7 +62,9 @@ class Array:
 
     def push(self, value: Operand | str) -> tuple[Action, ...]:
         """A step of a shift register: each element takes the value of the one before, the first ``value``."""
-        shift = [assign(after, before) for before, after in zip(self.variables, self.variables[1:], strict=False)]
+        shift = [
+            assign(after, before) for before, after in zip(self.variables, self.variables[1:], strict=False)
+        ]
         return (*reversed(shift), assign(self.variables[0], value))
 
     def _chosen(self, index: Expr) -> list[tuple[Expr, Var]]:
@@ -90,13 +92,17 @@ def _shown(key: object) -> str:
 def _values(index: Expr, of: str) -> list[object]:
     """The values that an index may have: those of a variable's domain, or the remainders of a division."""
     if isinstance(index, Var) and not isinstance(index.sort, Num):
-        return [index.domain.show(raw) for raw in index.domain.values] if isinstance(index.sort, Enum) else [None]
+        return (
+            [index.domain.show(raw) for raw in index.domain.values]
+            if isinstance(index.sort, Enum)
+            else [None]
+        )
     if isinstance(index, Var):
         return [exact(raw) * index.sort.resolution for raw in index.domain.values]  # type: ignore[union-attr]
     if isinstance(index, Apply) and index.op is Op.MOD and isinstance(most := index.args[1], Const):
         return list(range(most.value)) if index.sort == Num() else [None]
     raise ModelError(
-        f"`{of}[{index}]`: an index is a number, a variable, or `modulo(..., n)`; keep `{index}` in a variable."
+        f"`{of}[{index}]`: an index is a number, a variable, or `modulo(..., n)`; keep `{index}` in one."
     )
 
 

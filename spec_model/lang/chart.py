@@ -40,8 +40,8 @@ class State:
 
     ``default`` is the default transition of an exclusive composite: a state's name, a transition, or
     several transitions in priority order.  Junctions belong to the composite they are drawn in.  ``label`` is
-    a text with the actions, ``"entry: x = 1; exit: x = 0"``, until a chart reads it.  ``place`` is where it is
-    written, unless given the line that makes it.
+    a text with the actions, ``"entry: x = 1; exit: x = 0"``, until a chart reads it.  ``place`` is where it
+    is written, unless given the line that makes it.
     """
 
     name: str
@@ -81,14 +81,18 @@ class State:
         for attribute, value in (*fields.items(), *((n, several(of, n, v)) for n, v in lists.items())):
             object.__setattr__(self, attribute, value)
         if label is not None and (self.entry or self.during or self.exit):
-            raise ModelError(f"{of} has a text and entry=, during= or exit= beside it; write all in the text.")
-
-    @cached_property
-    def labelled(self) -> bool:
-        """Whether something in it is a text that no chart has read."""
+            raise ModelError(
+                f"{of} has a text and entry=, during= or exit= beside it; write all in the text."
+            )
         segments = [*self.default, *self.transitions, *(t for j in self.junctions for t in j.transitions)]
         texts = any(isinstance(s, Transition) and s.label is not None for s in segments)
-        return texts or self.label is not None or any(isinstance(s, State) and s.labelled for s in self.states)
+        inside = any(isinstance(s, State) and s.labelled for s in self.states)
+        self.__dict__["_labelled"] = texts or inside or label is not None
+
+    @property
+    def labelled(self) -> bool:
+        """Whether something in it is a text that no chart has read."""
+        return bool(self.__dict__["_labelled"])
 
     def walk(self, path: Path = ()) -> Iterator[tuple[Path, "State"]]:
         """This state and every state below it, with paths, parents first, in execution order.

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from rovercheck.spec_model.lang.action import Action, Assign, If, Send
+from rovercheck.spec_model.lang.domain import own
 from rovercheck.spec_model.lang.errors import ModelError, brief, with_article
-from rovercheck.spec_model.lang.expr import Expr, Named, Operand, as_formula, const, own
+from rovercheck.spec_model.lang.expr import Expr, Named, Operand, as_formula, const
 
 
 @dataclass(frozen=True)

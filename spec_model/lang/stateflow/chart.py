@@ -77,9 +77,7 @@ class _Reader:
         except (LabelError, RecursionError) as error:
             self._fault(label, f"{self.chart.name}, transition {number} of {source}", error)
             return drawn
-        return replace(
-            drawn, label=None, event=parts.event, guard=parts.guard, do=parts.do, then=parts.then
-        )
+        return replace(drawn, label=None, event=parts.event, guard=parts.guard, do=parts.do, then=parts.then)
 
     def _fault(self, label: LabelText, of: str, error: LabelError | RecursionError) -> None:
         if isinstance(error, RecursionError):

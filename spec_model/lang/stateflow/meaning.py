@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 
-from lark import Token
-
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, Sort, Unit
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean, with_article
 from rovercheck.spec_model.lang.expr import (
@@ -30,6 +28,22 @@ from rovercheck.spec_model.lang.expr import (
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError
 from rovercheck.spec_model.lang.stateflow.names import LabelNames
+from rovercheck.spec_model.lang.stateflow.quantities import (
+    SCALES,
+    TIMES,
+    arguments,
+    factors,
+    folded,
+    inverse,
+    is_literal,
+    number_in,
+    read_number,
+    split_quantity,
+    subtree,
+    subtrees,
+    unit_of_time,
+)
+from rovercheck.spec_model.lang.stateflow.sorts import Sorts, Unclear
 from rovercheck.spec_model.lang.stateflow.syntax import Node, parsed, span
 from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.words import (
@@ -46,21 +60,6 @@ from rovercheck.spec_model.lang.words import (
     sign,
     wrap,
 )
-
-TIMES = {
-    "tick": Span(Fraction(1), "ticks"), "ticks": Span(Fraction(1), "ticks"),
-    "usec": Span(Fraction(1, 1000), "ms"), "µs": Span(Fraction(1, 1000), "ms"),
-    "us": Span(Fraction(1, 1000), "ms"), "msec": Span(Fraction(1), "ms"), "ms": Span(Fraction(1), "ms"),
-    "sec": Span(Fraction(1000), "ms"), "s": Span(Fraction(1000), "ms"), "min": Span(Fraction(60_000), "ms"),
-}  # fmt: skip
-"""Units of lengths of time."""
-
-SCALES = (
-    {"µs": Fraction(1, 1000), "ms": Fraction(1), "s": Fraction(1000), "min": Fraction(60_000),
-     "h": Fraction(3_600_000)},
-    {"mm": Fraction(1), "cm": Fraction(10), "m": Fraction(1000), "km": Fraction(1_000_000)},
-)  # fmt: skip
-"""Units in which a written number is converted to that of a datum, exactly."""
 
 _CALLS = {
     "abs": (1, absolute), "sign": (1, sign), "wrap": (1, wrap), "rising": (1, rising),
@@ -79,52 +78,29 @@ _NOT_YET = {
     "hasChangedFrom": "keep the value before in a datum",
     "pow": "write a product", "sqrt": "compare squares", "floor": "use quotient",
 }  # fmt: skip
-WORDS = (*_CALLS, *_PAIRS, "after", "duration", "held", "mod", "rem", "bit", "in", "quotient", "modulo", "xor")
+WORDS = (
+    *_CALLS,
+    *_PAIRS,
+    "after",
+    "duration",
+    "held",
+    "mod",
+    "rem",
+    "bit",
+    "in",
+    "quotient",
+    "modulo",
+    "xor",
+)
 """Functions that every label may call."""
 
 
-class Formulas:
+class Formulas(Sorts):
     """Formulas of one text.  ``strange`` says which name stands where, of those that are no words."""
 
     def __init__(self, names: LabelNames, strange: dict[int, str]) -> None:
+        super().__init__()
         self.names, self.strange = names, strange
-        self._looks: dict[int, Sort | None] = {}
-
-    # --- sorts that are known without what is around -----------------------------------------------
-
-    def _look(self, node: Node) -> Sort | None:
-        """The sort of a part, None where what is around it must say."""
-        if id(node) not in self._looks:
-            self._looks[id(node)] = self._sort(node)
-        return self._looks[id(node)]
-
-    def _sort(self, node: Node) -> Sort | None:
-        match node.data:
-            case "either" | "both" | "negated" | "comparison":
-                return Bool()
-            case "number":
-                return None
-            case "signed" | "signed_twice":
-                return self._look(_tree(node, -1))
-            case "ite":
-                return self._first([_tree(node, 1), _tree(node, 2)])
-            case "formula":
-                return self._look(_tree(node, 0))
-            case "computed":
-                parts = [_tree(node, 0), _tree(node, 2)]
-                if str(node.children[1]) not in ("*", "/"):
-                    return self._first(parts)
-                looks = [self._look(part) for part in parts]
-                return None if None in looks else self.formula(node).sort
-            case "call" if str(node.children[0]) in _PAIRS:
-                return self._first(_arguments(node))
-        try:
-            return self.formula(node).sort
-        except _Unclear:
-            return None
-
-    def _first(self, nodes: Sequence[Node]) -> Sort | None:
-        return next((sort for sort in map(self._look, nodes) if sort is not None), None)
 
     # --- formulas ------------------------------------------------------------------------------------
 
@@ -140,7 +116,7 @@ class Formulas:
             return make(node, like)
 
     def _formula(self, node: Node, like: Sort | None) -> Expr:
-        return self.formula(_tree(node, 0), like)
+        return self.formula(subtree(node, 0), like)
 
     def _either(self, node: Node, like: Sort | None) -> Expr:
         return any_of(*self._conditions(node))
@@ -150,33 +126,32 @@ class Formulas:
 
     def _conditions(self, node: Node) -> Iterator[Expr]:
         sign = "||" if node.data == "either" else "&&"
-        for part in _trees(node):
+        for part in subtrees(node):
             with located(part):
                 yield as_boolean(self.formula(part, Bool()), sign)
 
     def _negated(self, node: Node, like: Sort | None) -> Expr:
-        return ~as_boolean(self.formula(_tree(node, 1), Bool()), "!")
+        return ~as_boolean(self.formula(subtree(node, 1), Bool()), "!")
 
     def _comparison(self, node: Node, like: Sort | None) -> Expr:
-        left, sign, right = node.children
-        sign = {"~=": "!="}.get(str(sign), str(sign))
-        length = self._length(_tree(node, 0), sign, _tree(node, 2))
+        sign = str(node.children[1]).replace("~", "!")
+        length = self._length(subtree(node, 0), sign, subtree(node, 2))
         if length is not None:
             return length
-        one, two = self._alike([_tree(node, 0), _tree(node, 2)], None)
+        one, two = self._alike([subtree(node, 0), subtree(node, 2)], None)
         return {
             "==": Expr.__eq__, "!=": Expr.__ne__, "<": Expr.__lt__,
             "<=": Expr.__le__, ">": Expr.__gt__, ">=": Expr.__ge__,
-        }[sign](one, two)  # type: ignore[operator]  # fmt: skip
+        }[sign](one, two)  # fmt: skip
 
     def _length(self, left: Node, sign: str, right: Node) -> Expr | None:
         """``duration(c) > 3 s``, which compares a time."""
         if left.data != "call" or str(left.children[0]) != "duration" or "duration" in self.names.functions:
             return None
-        given = _arguments(left)
+        given = arguments(left)
         if len(given) not in (1, 2):
             raise LabelError("duration() takes a condition; write `duration(c) > 3 s`.", span(left))
-        unit = self._unit(given[1]) if len(given) == 2 else None
+        unit = unit_of_time(given[1]) if len(given) == 2 else None
         condition = self.condition(given[0])
         length = self.time(right, unit or TIMES["s"], bare=True)
         strict = sign in (">", "<=")
@@ -189,7 +164,7 @@ class Formulas:
         """Formulas that must be of one sort: what says none of itself takes that of the others."""
         anchor = self._first(nodes) or like
         made: list[Expr | None] = [None] * len(nodes)
-        plain = [n for n in range(len(nodes)) if not _literal(nodes[n])]
+        plain = [n for n in range(len(nodes)) if not is_literal(nodes[n])]
         for at in [*plain, *(n for n in range(len(nodes)) if n not in plain)]:
             made[at] = one = self.formula(nodes[at], anchor)
             if anchor is None and at in plain:
@@ -197,12 +172,12 @@ class Formulas:
         return [one for one in made if one is not None]
 
     def _ite(self, node: Node, like: Sort | None) -> Expr:
-        test, then, otherwise = _trees(node)
+        test, then, otherwise = subtrees(node)
         condition = self.condition(test)
         return ite(condition, *self._alike([then, otherwise], like))
 
     def _computed(self, node: Node, like: Sort | None) -> Expr:
-        left, right, operator = _tree(node, 0), _tree(node, 2), str(node.children[1])
+        left, right, operator = subtree(node, 0), subtree(node, 2), str(node.children[1])
         match operator:
             case "+" | "-":
                 one, two = self._alike([left, right], like)
@@ -215,7 +190,7 @@ class Formulas:
 
     def _product(self, node: Node, like: Sort | None) -> Expr:
         """A product or a quotient; the first factor that is a bare number takes the unit that is missing."""
-        leaves = list(_factors(node, False))
+        leaves = list(factors(node, False))
         bare = next((leaf for leaf, _ in leaves if leaf.data == "number"), None)
         made = {id(leaf): self.formula(leaf) for leaf, _ in leaves if leaf is not bare}
         if bare is not None:
@@ -224,57 +199,55 @@ class Formulas:
                 if leaf is not bare:
                     sort = as_number(made[id(leaf)], "*").sort
                     assert isinstance(sort, Num)
-                    unit *= _inverse(sort.unit) if below else sort.unit
+                    unit *= inverse(sort.unit) if below else sort.unit
             wanted = like.unit if isinstance(like, Num) else unit
-            missing = wanted * _inverse(unit)
+            missing = wanted * inverse(unit)
             below = next(b for leaf, b in leaves if leaf is bare)
-            made[id(bare)] = const(_value(bare), _inverse(missing) if below else missing)
+            made[id(bare)] = const(number_in(bare), inverse(missing) if below else missing)
         return self._multiplied(node, made)
 
     def _multiplied(self, node: Node, made: dict[int, Expr]) -> Expr:
         if id(node) in made:
             return made[id(node)]
-        one, two = self._multiplied(_tree(node, 0), made), self._multiplied(_tree(node, 2), made)
+        one, two = self._multiplied(subtree(node, 0), made), self._multiplied(subtree(node, 2), made)
         if str(node.children[1]) == "*":
             return one * two
         if not isinstance(two, Const) or not isinstance(two.sort, Num):
             raise LabelError(
-                f"`{two}` is no constant; divide by a number, or compare products.", span(_tree(node, 2))
+                f"`{two}` is no constant; divide by a number, or compare products.", span(subtree(node, 2))
             )
         if two.value == 0:
-            raise LabelError("a division by 0 has no meaning.", span(_tree(node, 2)))
-        inverse = const(1 / (two.value * two.sort.resolution), _inverse(two.sort.unit))
-        return _folded(one, inverse) if _literal(_tree(node, 0)) else one * inverse
+            raise LabelError("a division by 0 has no meaning.", span(subtree(node, 2)))
+        once_per = const(1 / (two.value * two.sort.resolution), inverse(two.sort.unit))
+        return folded(one, once_per) if is_literal(subtree(node, 0)) else one * once_per
 
     def _signed(self, node: Node, like: Sort | None) -> Expr:
-        sign, part = str(node.children[0]), self.formula(_tree(node, 1), like)
-        as_number(part, sign)
+        sign = str(node.children[0])
+        part = as_number(self.formula(subtree(node, 1), like), sign)
         if sign == "+":
             return part
         return Const(-part.value, part.sort) if isinstance(part, Const) and part.value > 0 else -part
 
     def _signed_twice(self, node: Node, like: Sort | None) -> Expr:
-        part = self.formula(_tree(node, 1), like)
-        as_number(part, "-")
-        if str(node.children[0]) == "++":
-            return part
-        return -Const(-part.value, part.sort) if isinstance(part, Const) and part.value > 0 else --part
+        part = as_number(self.formula(subtree(node, 1), like), "-")
+        once_ = Const(-part.value, part.sort) if isinstance(part, Const) and part.value > 0 else -part
+        return part if str(node.children[0]) == "++" else -once_
 
     def _number(self, node: Node, like: Sort | None) -> Expr:
-        value = _value(node)
+        value = number_in(node)
         if isinstance(like, Bool) and value in (0, 1) and value.denominator == 1:
             raise LabelError(f"`{value}` is a number; write `{'true' if value else 'false'}`.", span(node))
         return const(value, like.unit if isinstance(like, Num) else "")
 
     def _quantity(self, node: Node, like: Sort | None) -> Expr:
-        number, unit = _split(str(node.children[0]))
+        number, unit = split_quantity(str(node.children[0]))
         if isinstance(like, Num) and Unit.of(unit) != like.unit:
             if unit in self.names.values:
                 raise LabelError(f"an operator is missing; write `{number} * {unit}`.", span(node))
             for table in SCALES:
                 if unit in table and str(like.unit) in table:
-                    return const(_read(number) * table[unit] / table[str(like.unit)], like.unit)
-        return const(_read(number), unit)
+                    return const(read_number(number) * table[unit] / table[str(like.unit)], like.unit)
+        return const(read_number(number), unit)
 
     def _name(self, node: Node, like: Sort | None) -> Expr:
         return self._named(str(node.children[0]), span(node), like)
@@ -293,7 +266,7 @@ class Formulas:
             return (fitting or found)[0]
         if isinstance(like, Enum):
             raise LabelError(f"`{name}` is no member of {like}. {did_you_mean(name, dict(like.members))}", at)
-        raise _Unclear(
+        raise Unclear(
             f"`{name}` is a member of {' and of '.join(str(one.sort) for one in found)}; write "
             f"`{found[0].sort}.{name}`.",
             at,
@@ -306,18 +279,18 @@ class Formulas:
                 raise LabelError(f"`{name}` is no array; write `{name}` alone.", span(node))
             raise LabelError(f"`{name}` is no array. {did_you_mean(name, self.names.arrays)}", span(node))
         array = self.names.arrays[name]
-        return array[self.index(array.keys, _tree(node, 1))]
+        return array[self.index(array.keys, subtree(node, 1))]
 
     def index(self, keys: Sequence[object], node: Node) -> Expr | str:
         """The index of an element: a name among its keys, or a formula."""
         inner = node
         while inner.data == "formula":
-            inner = _tree(inner, 0)
+            inner = subtree(inner, 0)
         name = str(inner.children[0]) if inner.data == "name" else ""
         return name if name in keys and name not in self.names.values else self.formula(node)
 
     def _call(self, node: Node, like: Sort | None) -> Expr:
-        name, given = str(node.children[0]), _arguments(node)
+        name, given = str(node.children[0]), arguments(node)
         if name in self.names.functions:
             return self.names.functions[name].formula(*(self.formula(one) for one in given))
         if name in _PAIRS:
@@ -353,7 +326,9 @@ class Formulas:
         if name in _NOT_YET:
             raise LabelError(f"`{name}()` is no word of charts here; {_NOT_YET[name]}.", span(node))
         if name in self.names.values:
-            raise LabelError(f"`{name}` is {with_article(self.names.values[name].sort)}, no function.", span(node))
+            raise LabelError(
+                f"`{name}` is {with_article(self.names.values[name].sort)}, no function.", span(node)
+            )
         near = did_you_mean(name, [*self.names.functions, *WORDS])
         raise LabelError(f"there is no function `{name}`. {near}", span(node))
 
@@ -366,7 +341,9 @@ class Formulas:
         name = str(node.children[0]) if node.data == "name" else ""
         chart, _, state = name.partition(".")
         if chart in self.names.charts:
-            return self.names.charts[chart].active(state) if state else self.names.charts[chart].active_path(())
+            return (
+                self.names.charts[chart].active(state) if state else self.names.charts[chart].active_path(())
+            )
         if not name or self.names.own is None:
             raise LabelError("in() takes the name of a state.", span(node))
         return self.names.own.active(name)
@@ -388,7 +365,7 @@ class Formulas:
     def span_of(self, node: Node, given: Sequence[Node]) -> Span:
         """The time of ``after(3 s)`` and of ``after(3, sec)``."""
         if len(given) == 2:
-            return self.time(given[0], self._unit(given[1]), bare=True)
+            return self.time(given[0], unit_of_time(given[1]), bare=True)
         if len(given) != 1:
             raise LabelError("after() takes a time; write `after(3 s)` or `after(3, sec)`.", span(node))
         return self.time(given[0], None)
@@ -396,31 +373,17 @@ class Formulas:
     def time(self, node: Node, unit: Span | None, bare: bool = False) -> Span:
         """A length of time; ``unit`` is that of a number without one."""
         while node.data == "formula":
-            node = _tree(node, 0)
+            node = subtree(node, 0)
         if node.data == "quantity":
-            number, name = _split(str(node.children[0]))
+            number, name = split_quantity(str(node.children[0]))
             if name not in TIMES:
                 known = "`ms`, `s`, `min` or `ticks`"
                 raise LabelError(f"`{name}` is no unit of time; write {known}.", span(node))
-            return TIMES[name] * _read(number)
+            return TIMES[name] * read_number(number)
         number_ = self._number_of(node, "a length of time")
         if unit is None or (not bare and number_ != 0):
             raise LabelError(f"`{number_}` has no unit; write `{number_} s` or `{number_} ms`.", span(node))
         return unit * number_
-
-    def _unit(self, node: Node) -> Span:
-        name = str(node.children[0]) if node.data == "name" else ""
-        if name not in TIMES:
-            raise LabelError(
-                f"`{name or 'this'}` is no unit of time; write `sec`, `msec`, `usec` or `tick`. Times after "
-                "an event are counted in a datum.",
-                span(node),
-            )
-        return TIMES[name]
-
-
-class _Unclear(LabelError):
-    """The name of members of several enumerations, where nothing says which is meant."""
 
 
 @contextmanager
@@ -438,65 +401,3 @@ def formula_of(text: str, names: LabelNames, like: Sort | None = None) -> Expr:
     """The formula of a text, as between the brackets of a label.  Raises ``LabelError``."""
     masked, strange = names.mask(text)
     return Formulas(names, strange).formula(parsed(text, "formula", masked), like)
-
-
-def _tree(node: Node, at: int) -> Node:
-    part = node.children[at]
-    assert not isinstance(part, Token)
-    return part
-
-
-def _trees(node: Node) -> list[Node]:
-    return [part for part in node.children if not isinstance(part, Token)]
-
-
-def _arguments(node: Node) -> list[Node]:
-    """The arguments of a call."""
-    return [one for part in _trees(node) for one in _trees(part)]
-
-
-def _literal(node: Node) -> bool:
-    """Whether a part is a number, perhaps with a sign, or a fraction of two."""
-    if node.data in ("signed", "formula"):
-        return _literal(_tree(node, -1))
-    if node.data == "computed" and str(node.children[1]) == "/":
-        return _literal(_tree(node, 0)) and _literal(_tree(node, 2))
-    return node.data in ("number", "quantity")
-
-
-def _factors(node: Node, below: bool) -> Iterator[tuple[Node, bool]]:
-    """What a product is made of, and whether it is divided by."""
-    if node.data != "computed" or str(node.children[1]) not in ("*", "/"):
-        yield node, below
-        return
-    yield from _factors(_tree(node, 0), below)
-    yield from _factors(_tree(node, 2), below != (str(node.children[1]) == "/"))
-
-
-def _folded(one: Expr, other: Const) -> Expr:
-    """The product of two constants, as one: a fraction such as 1/3."""
-    assert isinstance(one, Const) and isinstance(one.sort, Num) and isinstance(other.sort, Num)
-    value = one.value * one.sort.resolution * other.value * other.sort.resolution
-    return const(value, one.sort.unit * other.sort.unit)
-
-
-def _inverse(unit: Unit) -> Unit:
-    return Unit(tuple((symbol, -power) for symbol, power in unit.powers))
-
-
-def _value(node: Node) -> Fraction:
-    return _read(str(node.children[0]))
-
-
-def _read(number: str) -> Fraction:
-    number = number.rstrip("fFuU") if not number.lower().startswith("0x") else number
-    return Fraction(int(number, 16)) if number.lower().startswith("0x") else Fraction(number.rstrip("."))
-
-
-def _split(quantity: str) -> tuple[str, str]:
-    """A number and its unit."""
-    number, _, unit = quantity.partition(" ")
-    if not unit:
-        at = next(at for at, sign in enumerate(quantity) if not (sign.isdigit() or sign in ".eE+-"))
-        number, unit = quantity[:at], quantity[at:]
-    return number.strip(), unit.strip()

@@ -11,7 +11,7 @@ from rovercheck.spec_model.lang.domain import Domain, Enum
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
 from rovercheck.spec_model.lang.expr import Const, Expr, Named, Var
 from rovercheck.spec_model.lang.function import Function
-from rovercheck.spec_model.lang.stateflow.message import LabelError, Extent
+from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError
 from rovercheck.spec_model.lang.walk import nodes, structure
 
 Datum = Var | Named | Const | Array | Function | Chart | Domain
@@ -20,7 +20,7 @@ Datum = Var | Named | Const | Array | Function | Chart | Domain
 _PLAIN = re.compile(r"[^\W\d]\w*(\.\w+)*")
 _KEYWORDS = {"if", "else", "elseif", "end", "div", "mod", "true", "false"}
 _BEFORE = re.compile(r"(?:^|[\[({,;!~&|?:=/\n]|\bif)\s*$")
-"""What may precede a name that is no word, such as ``T in ]-5;55[``; charts put it in parentheses elsewhere."""
+"""What may precede a name that is no word, such as ``T in ]-5;55[``; elsewhere it is in parentheses."""
 _AFTER = re.compile(r"[ \t]*(?:$|[\])},;&|?:{=!~\n])")
 _TIMED = re.compile(r"(after|duration|held|rising)\(")
 """Names that read like a word about time: those of another state are not meant."""
@@ -147,7 +147,9 @@ class LabelNames:
         signs, at = list(text), 0
         while match := pattern.search(text, at):
             start, end = match.span()
-            name = next((n for n in self._odd() if text.startswith(n, start) and self._alone(text, start, n)), "")
+            name = next(
+                (n for n in self._odd() if text.startswith(n, start) and self._alone(text, start, n)), ""
+            )
             if name:
                 end = start + len(name)
                 signs[start:end] = _MASK + _REST * (end - start - 1)

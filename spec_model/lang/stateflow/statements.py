@@ -1,19 +1,34 @@
 """Actions of labels, and whole labels: event, guard, condition action and transition action."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
 
 from lark import Token
 
 from rovercheck.spec_model.lang.action import Action, assign, send, when
 from rovercheck.spec_model.lang.domain import Bool, Sort
 from rovercheck.spec_model.lang.errors import did_you_mean
-from rovercheck.spec_model.lang.expr import Expr, Operand, Temporal, Var, When, all_of, as_number, const, linear
+from rovercheck.spec_model.lang.expr import (
+    Expr,
+    Operand,
+    Temporal,
+    Var,
+    When,
+    all_of,
+    as_number,
+    const,
+    linear,
+)
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.stateflow.meaning import Formulas, located
 from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError
 from rovercheck.spec_model.lang.stateflow.names import LabelNames
+from rovercheck.spec_model.lang.stateflow.quantities import subtrees
 from rovercheck.spec_model.lang.stateflow.syntax import Node, Start, check_text, parsed, span
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -91,10 +106,12 @@ class _Label:
     def transition(self) -> TransitionParts:
         event, guards = self._events()
         do, then = list[Action](), list[Action]()
-        for part in _trees(self.tree):
+        for part in subtrees(self.tree):
             match part.data:
                 case "guard":
-                    guards += (g for f in _trees(part) if (g := self._kept(self.formulas.condition, f)) is not None)
+                    guards += (
+                        g for f in subtrees(part) if (g := self._kept(self.formulas.condition, f)) is not None
+                    )
                 case "block":
                     do += self.actions(part)
                 case "then":
@@ -105,7 +122,7 @@ class _Label:
     def _events(self) -> tuple[str | None, list[Expr]]:
         """The local event, and what a temporal event such as ``after(3, sec)`` asks."""
         event, guards = None, list[Expr]()
-        found = [one for part in _trees(self.tree) if part.data == "events" for one in _trees(part)]
+        found = [one for part in subtrees(self.tree) if part.data == "events" for one in subtrees(part)]
         if len(found) > 1:
             self.errors.append(
                 LabelError("two events on one transition; draw a transition for each.", span(found[1]))
@@ -118,8 +135,8 @@ class _Label:
                     said = f"`{name}` is a datum, no event; a condition stands in brackets: `[{name}]`."
                     self.errors.append(LabelError(said, span(one)))
             elif name == "after":
-                given = [n for part in _trees(one) for n in _trees(part)]
-                length = self._kept(lambda node: self.formulas.span_of(node, given), one)
+                given = [n for part in subtrees(one) for n in subtrees(part)]
+                length = self._kept(partial(self.formulas.span_of, given=given), one)
                 guards += [Temporal(When.AFTER, None, length)] if length is not None else []
             else:
                 said = f"`{name}(...)` is no event here; write a condition in brackets: `[...]`."
@@ -128,11 +145,11 @@ class _Label:
 
     def state(self) -> StateParts:
         found: dict[str, list[Action]] = {"entry": [], "during": [], "exit": []}
-        for part in _trees(self.tree):
+        for part in subtrees(self.tree):
             if part.data == "statements":
                 found["entry"] += self.actions(part)
                 continue
-            words, body = _trees(part)
+            words, body = subtrees(part)
             for kind in self._kinds(words):
                 found[kind] += self.actions(body)
         self.check()
@@ -155,10 +172,10 @@ class _Label:
     def actions(self, node: Node) -> tuple[Action, ...]:
         """The actions of a list, of which each is looked at."""
         while node.data != "statements":
-            node = _trees(node)[-1]
+            node = subtrees(node)[-1]
         made: list[Action] = []
         before: Extent | None = None
-        for part in _trees(node):
+        for part in subtrees(node):
             at = span(part)
             if before is not None and not set(self.text[before.end : at.start]) & set(";,\n"):
                 self.errors.append(LabelError("a `;` is missing before this.", at))
@@ -167,7 +184,7 @@ class _Label:
             made += found or ()
         return tuple(made)
 
-    def _kept(self, make, node):  # type: ignore[no-untyped-def]
+    def _kept(self, make: Callable[[Node], T], node: Node) -> T | None:
         """What is made of a part, or nothing if it has no meaning, which is kept."""
         try:
             with located(node):
@@ -179,12 +196,12 @@ class _Label:
     def _action(self, node: Node) -> tuple[Action, ...]:
         match node.data:
             case "assignment":
-                return (self._assign(_trees(node)[0], _trees(node)[1]),)
+                return (self._assign(subtrees(node)[0], subtrees(node)[1]),)
             case "change":
                 return (self._change(*node.children),)  # type: ignore[arg-type]
             case "step":
                 by = const(1 if str(node.children[1]) == "++" else -1)
-                return (self._changed(_trees(node)[0], lambda old: linear(Op.ADD, old, _like(by, old))),)
+                return (self._changed(subtrees(node)[0], lambda old: linear(Op.ADD, old, _like(by, old))),)
             case "conditional" | "chained":
                 return (self._conditional(node),)
             case "procedure":
@@ -199,21 +216,21 @@ class _Label:
         )
 
     def _conditional(self, node: Node) -> Action:
-        parts = _trees(node)
+        parts = subtrees(node)
         test = self._kept(self.formulas.condition, parts[0])
         then = self.actions(parts[1])
         otherwise: tuple[Action, ...] = ()
         for other in parts[2:]:
             if other.data == "chained":
                 otherwise = (self._conditional(other),)
-            elif (inner := _trees(other)[0]).data == "conditional":
+            elif (inner := subtrees(other)[0]).data == "conditional":
                 otherwise = (self._conditional(inner),)
             else:
                 otherwise = self.actions(inner)
         return when(const(True) if test is None else test, then, otherwise)
 
     def _procedure(self, node: Node) -> tuple[Action, ...]:
-        name, given = str(node.children[0]), [n for part in _trees(node) for n in _trees(part)]
+        name, given = str(node.children[0]), [n for part in subtrees(node) for n in subtrees(part)]
         if name in self.names.functions:
             return self.names.functions[name].actions(*(self.formulas.formula(one) for one in given))
         if name == "send":
@@ -242,7 +259,7 @@ class _Label:
                 near = did_you_mean(name, self.names.arrays)
                 raise LabelError(f"`{name}` is no array. {near}", span(target))
             array = self.names.arrays[name]
-            index = self.formulas.index(array.keys, _trees(target)[0])
+            index = self.formulas.index(array.keys, subtrees(target)[0])
             return array.set(index, self.formulas.formula(value, array.variables[0].sort))
         var = self._target(target)
         return assign(var, self._value(value, var.sort))
@@ -250,7 +267,9 @@ class _Label:
     def _value(self, node: Node, like: Sort) -> Operand:
         made = self.formulas.formula(node, like)
         if isinstance(like, Bool) and not isinstance(made.sort, Bool):
-            raise LabelError(f"`{made}` is a number, and what it is assigned to is true or false.", span(node))
+            raise LabelError(
+                f"`{made}` is a number, and what it is assigned to is true or false.", span(node)
+            )
         return made
 
     def _target(self, node: Node) -> Var:
@@ -275,7 +294,7 @@ class _Label:
 
         return self._changed(target, changed)
 
-    def _changed(self, target: Node, change):  # type: ignore[no-untyped-def]
+    def _changed(self, target: Node, change: Callable[[Expr], Expr]) -> Action:
         if target.data == "indexed_target":
             raise LabelError("write the assignment to an element whole: `a[1] = a[1] + 1`.", span(target))
         var = self._target(target)
@@ -294,7 +313,3 @@ def _word(node: Node, what: str) -> str:
     if node.data != "name":
         raise LabelError(f"write the name of {what}.", span(node))
     return str(node.children[0])
-
-
-def _trees(node: Node) -> list[Node]:
-    return [part for part in node.children if not isinstance(part, Token)]

@@ -10,7 +10,7 @@ from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from rovercheck.spec_model.lang.stateflow.blocks import Blocks
-from rovercheck.spec_model.lang.stateflow.message import LabelError, Extent
+from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError
 
 Node = Tree[Token]
 Start = Literal["transition", "state", "actions", "formula"]
@@ -81,7 +81,7 @@ def check_text(text: str) -> None:
         raise LabelError(f"the sign {code} cannot be shown; leave it out.", Extent(*hidden.span()))
     if len(text) > LONGEST:
         raise LabelError(
-            f"a label of {len(text):,} signs cannot be read; write {LONGEST:,} at most, and name parts of it.",
+            f"a label of {len(text):,} signs cannot be read; write {LONGEST:,} at most and name parts.",
             Extent(LONGEST, LONGEST + 1),
         )
     depth = 0
@@ -159,7 +159,9 @@ def _listed(expected: Iterable[str]) -> str:
     elif "NAME" in kinds:
         words.append("a name")
     if len(kinds & _OPERATORS) > 1:
-        words.append("an operator, such as `&&` or `>`" if "COMPARISON" in kinds else "an operator, such as `&&`")
+        words.append(
+            "an operator, such as `&&` or `>`" if "COMPARISON" in kinds else "an operator, such as `&&`"
+        )
         kinds -= _OPERATORS
     words += sorted({WORDS[kind] for kind in kinds if kind in WORDS})
     if not words:
