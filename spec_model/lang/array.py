@@ -2,6 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import add
+from typing import cast
 
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.domain import Domain, Enum, Num, Number, exact
@@ -67,6 +70,10 @@ class Array:
         ]
         return (*reversed(shift), assign(self.variables[0], value))
 
+    def sum(self) -> Expr:
+        """The sum of all elements."""
+        return reduce(add, self.variables[1:], cast(Expr, self.variables[0]))
+
     def _chosen(self, index: Expr) -> list[tuple[Expr, Var]]:
         """The variables that an index may mean, each with the condition that it does."""
         outside = [value for value in _values(index, self.name) if value not in self.keys]
@@ -117,15 +124,15 @@ def array(
     """An array of variables of one domain; a number of them counts from 0.
 
     Their names are that of the array and the number, or ``_`` and the name of the key: ``gap1``,
-    ``speed_FL``.  Raises ``ModelError`` for no keys, and for one that occurs twice.
+    ``speed_FL``.  ``{key}`` in ``doc`` stands for the key.  Raises ``ModelError`` for no keys, and for one
+    that occurs twice.
     """
     if isinstance(keys, bool) or (isinstance(keys, int) and keys < 1):
         raise ModelError(f"array({name!r}, {keys!r}) has no elements; write how many, at least 1.")
     given = tuple(range(keys)) if isinstance(keys, int) else several(f"array({name!r}, ...)", "keys", keys)
     if not given or len(set(given)) < len(given) or any(not isinstance(k, int | str) for k in given):
         raise ModelError(f"array({name!r}, {brief(keys)}): write its keys, numbers or names, each once.")
-    made = tuple(
-        var(f"{name}{key}" if isinstance(key, int) else f"{name}_{key}", domain, init, doc, hidden)
-        for key in given
-    )
+    names = [f"{name}{key}" if isinstance(key, int) else f"{name}_{key}" for key in given]
+    docs = [doc.replace("{key}", str(key)) for key in given]
+    made = tuple(var(one, domain, init, said, hidden) for one, said in zip(names, docs, strict=True))
     return Array(name, given, made)
