@@ -13,6 +13,9 @@ _WORDS = f"{__package__}."
 """Modules of the language: what they build is written elsewhere."""
 
 
+CallExtent = tuple[tuple[int, int], tuple[int, int]]
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """A line, from 1, of a file; the file as Python names it, usually with its whole path."""
@@ -51,13 +54,14 @@ def here(*beyond: str) -> Place | None:
     return None if frame is None or file.startswith("<") else Place(file, frame.f_lineno)
 
 
-def last_line() -> int:
-    """The line in which the call of that caller ends; 0 where that is not known."""
+def call_extent() -> CallExtent:
+    """Where the call of that caller begins and ends: lines from 1, bytes from 0; zeros where nobody knows."""
     frame = _caller(())
     if frame is None:
-        return 0
+        return (0, 0), (0, 0)
     positions = islice(frame.f_code.co_positions(), frame.f_lasti // 2, None)
-    return next(positions, (0, 0, 0, 0))[1] or 0
+    first, last, start, end = next(positions, (0, 0, 0, 0))
+    return (first or 0, start or 0), (last or 0, end or 0)
 
 
 def _caller(beyond: Sequence[str]) -> FrameType | None:

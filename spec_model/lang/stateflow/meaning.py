@@ -241,9 +241,10 @@ class Formulas(Sorts):
 
     def _quantity(self, node: Node, like: Sort | None) -> Expr:
         number, unit = split_quantity(str(node.children[0]))
-        if isinstance(like, Num) and Unit.of(unit) != like.unit:
-            if unit in self.names.values:
-                raise LabelError(f"an operator is missing; write `{number} * {unit}`.", span(node))
+        fits = isinstance(like, Num) and Unit.of(unit) == like.unit
+        if unit in self.names.values and not fits:
+            raise LabelError(f"an operator is missing; write `{number} * {unit}`.", span(node))
+        if isinstance(like, Num) and not fits:
             for table in SCALES:
                 if unit in table and str(like.unit) in table:
                     return const(read_number(number) * table[unit] / table[str(like.unit)], like.unit)

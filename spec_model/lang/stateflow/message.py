@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from unicodedata import combining, east_asian_width
 
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.place import Place, here, last_line
+from rovercheck.spec_model.lang.place import CallExtent, Place, call_extent, here
 
 _SHOWN = 100
 """Signs of a long line that are shown around an error."""
@@ -31,11 +31,11 @@ class LabelError(ModelError):
 
 @dataclass(frozen=True)
 class LabelText:
-    """A text of the model, and the call that it is written in: its place, and the line that ends it."""
+    """A text of the model, and the call that it is written in: its place, and where it begins and ends."""
 
     text: str
     place: Place | None = field(default=None, compare=False)
-    last: int = field(default=0, compare=False)
+    call: CallExtent = field(default=((0, 0), (0, 0)), compare=False)
 
     def fault(self, of: str, error: LabelError) -> str:
         """The error with its place before it and the line of the text under it, a caret below."""
@@ -52,7 +52,7 @@ class LabelText:
 
 def label_text(text: str) -> LabelText:
     """A text that is written where the language is called from."""
-    return LabelText(text, here(), last_line())
+    return LabelText(text, here(), call_extent())
 
 
 def _position(text: str, at: int) -> tuple[int, int]:
@@ -103,15 +103,18 @@ def _in_file(label: LabelText, at: int) -> str | None:
 
 
 def _texts(source: str, label: LabelText) -> Sequence[ast.Constant]:
-    """The texts of the file, in the lines of the call, that are the label."""
+    """The texts in the call that are the label."""
     try:
         nodes = ast.walk(ast.parse(source))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ()
-    assert label.place is not None
-    first, last = label.place.line, max(label.last, label.place.line)
     found = [n for n in nodes if isinstance(n, ast.Constant) and n.value == label.text]
-    return [n for n in found if first <= n.lineno <= last]
+    first, last = label.call
+    return [
+        n
+        for n in found
+        if first <= (n.lineno, n.col_offset) and (n.end_lineno or 0, n.end_col_offset or 0) <= last
+    ]
 
 
 def _opening(lines: Sequence[str], node: ast.Constant, text: str) -> tuple[int, int] | None:

@@ -138,6 +138,8 @@ def _hint(text: str, found: Extent, expected: Iterable[str]) -> str | None:
     before = text[: found.start]
     if rest.startswith("=") and "ASSIGN" not in expected and before.count("[") > before.count("]"):
         return "`=` assigns: compare with `==`"
+    if rest.startswith("=") and re.search(r"[\w)\]][ \t]+[\w.]+[ \t]*$", before):
+        return "write `;` between two actions"
     opened = "LSQB" in expected and "LBRACE" in expected and "[" not in before
     if opened and not re.search(r"[\[{/]", before) and re.match(r"[<>=!~&|+*-]", rest):
         return "a condition stands in brackets: `[level > 80]`; an action in braces or after `/`"

@@ -181,8 +181,12 @@ conditions = conditions_of(
     )
 )
 simple = st.one_of(
-    st.sampled_from([a, b, keyword, odd, nearby, quick, called, ~a, all_of(a, ~b), any_of(a, all_of(b, quick))]),
-    st.tuples(st.sampled_from(SIGNS), st.sampled_from([n, m, -n, n + 1]), numbers).map(lambda p: p[0](p[1], p[2])),
+    st.sampled_from(
+        [a, b, keyword, odd, nearby, quick, called, ~a, all_of(a, ~b), any_of(a, all_of(b, quick))]
+    ),
+    st.tuples(st.sampled_from(SIGNS), st.sampled_from([n, m, -n, n + 1]), numbers).map(
+        lambda p: p[0](p[1], p[2])
+    ),
 )
 assignments = st.one_of(
     simple.map(lambda e: assign(a, e)),
@@ -194,9 +198,9 @@ assignments = st.one_of(
 )
 actions = st.recursive(
     assignments,
-    lambda inner: st.tuples(
-        simple, st.lists(inner, min_size=1, max_size=3), st.lists(inner, max_size=3)
-    ).map(lambda p: when(*p)),
+    lambda inner: st.tuples(simple, st.lists(inner, min_size=1, max_size=3), st.lists(inner, max_size=3)).map(
+        lambda p: when(*p)
+    ),
     max_leaves=6,
 )
 
