@@ -98,18 +98,15 @@ def _shown(key: object) -> str:
 
 def _values(index: Expr, of: str) -> list[object]:
     """The values that an index may have: those of a variable's domain, or the remainders of a division."""
-    if isinstance(index, Var) and not isinstance(index.sort, Num):
-        return (
-            [index.domain.show(raw) for raw in index.domain.values]
-            if isinstance(index.sort, Enum)
-            else [None]
-        )
-    if isinstance(index, Var):
-        return [exact(raw) * index.sort.resolution for raw in index.domain.values]  # type: ignore[union-attr]
-    if isinstance(index, Apply) and index.op is Op.MOD and isinstance(most := index.args[1], Const):
-        return list(range(most.value)) if index.sort == Num() else [None]
+    match index:
+        case Var(_, Domain(Enum() as names, values)):
+            return [names.member(raw) for raw in values]
+        case Var(_, Domain(Num(resolution, _), values)):
+            return [exact(raw) * resolution for raw in values]
+        case Apply(Op.MOD, (_, Const(divisor)), Num(resolution, _)) if resolution == 1:
+            return list(range(divisor))
     raise ModelError(
-        f"`{of}[{index}]`: an index is a number, a variable, or `modulo(..., n)`; keep `{index}` in one."
+        f"`{of}[{index}]`: an index is a number, a name, a variable of such, or `modulo(..., n)`; keep it in one."
     )
 
 

@@ -44,7 +44,7 @@ from rovercheck.spec_model.lang.stateflow.quantities import (
     unit_of_time,
 )
 from rovercheck.spec_model.lang.stateflow.sorts import Sorts, Unclear
-from rovercheck.spec_model.lang.stateflow.syntax import Node, parsed, span
+from rovercheck.spec_model.lang.stateflow.syntax import REFUSED, Node, parsed, span
 from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.words import (
     absolute,
@@ -66,18 +66,6 @@ _CALLS = {
     "previous": (1, previous), "once": (1, once),
 }  # fmt: skip
 _PAIRS = {"min": minimum, "max": maximum}
-_NOT_YET = {
-    "before": "write `!after(...)`",
-    "temporalCount": "compare with after(...) or duration(...)",
-    "elapsed": "compare with after(...) or duration(...)",
-    "count": "write `duration(c) >= n ticks`",
-    "at": "count in a datum", "every": "count in a datum",
-    "falling": "write `rising(!x)` of a condition",
-    "crossing": "write `rising(x)` or `rising(!x)` of a condition",
-    "hasChanged": "keep the value before in a datum", "hasChangedTo": "keep the value before in a datum",
-    "hasChangedFrom": "keep the value before in a datum",
-    "pow": "write a product", "sqrt": "compare squares", "floor": "use quotient",
-}  # fmt: skip
 WORDS = (
     *_CALLS,
     *_PAIRS,
@@ -324,8 +312,8 @@ class Formulas(Sorts):
             case "in":
                 self._counted(node, name, given, 1)
                 return self._active(given[0])
-        if name in _NOT_YET:
-            raise LabelError(f"`{name}()` is no word of charts here; {_NOT_YET[name]}.", span(node))
+        if name in REFUSED:
+            raise LabelError(f"`{name}()` is no word of charts here; {REFUSED[name]}.", span(node))
         if name in self.names.values:
             raise LabelError(
                 f"`{name}` is {with_article(self.names.values[name].sort)}, no function.", span(node)

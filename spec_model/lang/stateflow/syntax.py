@@ -50,6 +50,21 @@ _HINTS = {
 }  # fmt: skip
 
 
+REFUSED = {
+    "before": "write `!after(...)`",
+    "temporalCount": "compare with after(...) or duration(...)",
+    "elapsed": "compare with after(...) or duration(...)",
+    "count": "write `duration(c) >= n ticks`",
+    "at": "count in a datum", "every": "count in a datum",
+    "falling": "write `rising(!x)` of a condition",
+    "crossing": "write `rising(x)` or `rising(!x)` of a condition",
+    "hasChanged": "keep the value before in a datum", "hasChangedTo": "keep the value before in a datum",
+    "hasChangedFrom": "keep the value before in a datum",
+    "pow": "write a product", "sqrt": "compare squares", "floor": "use quotient",
+}  # fmt: skip
+"""Functions of Stateflow that have no meaning here, and what to write."""
+
+
 @cache
 def _parser(start: Start, ended: bool) -> Lark:
     grammar = Path(__file__).with_name("labels.lark").read_text(encoding="utf-8")
