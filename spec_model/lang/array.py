@@ -106,7 +106,7 @@ def _values(index: Expr, of: str) -> list[object]:
         case Apply(Op.MOD, (_, Const(divisor)), Num(resolution, _)) if resolution == 1:
             return list(range(divisor))
     raise ModelError(
-        f"`{of}[{index}]`: an index is a number, a name, a variable of such, or `modulo(..., n)`; keep it in one."
+        f"`{of}[{index}]`: an index is a number, a name, a variable of such, or `modulo(..., n)`."
     )
 
 

@@ -67,8 +67,8 @@ WRONG: dict[str, tuple[Callable[[], Any], str]] = {
     "a variable that may be more": (lambda: gap[far], "`far` may be 3; gap has"),
     "a remainder that may be more": (lambda: gap[modulo(far, 5)], "may be 3; gap has"),
     "a half": (lambda: gap[half], "`h` may be 1/2; gap has"),
-    "a flag": (lambda: gap[on], "`on` may be None; gap has"),
-    "a formula": (lambda: gap[at + 1], "an index is a number, a variable, or"),
+    "a flag": (lambda: gap[on], "an index is a number, a name, a variable"),
+    "a formula": (lambda: gap[at + 1], "an index is a number, a name, a variable"),
     "another enumeration": (lambda: gap[wheel], "may be FL; gap has"),
     "no elements": (lambda: array("x", 0, boolean), "has no elements; write how many, at least 1"),
     "no keys": (lambda: array("x", [], boolean), "write its keys, numbers or names, each once"),
@@ -111,14 +111,14 @@ def test_actions_are_the_actions() -> None:
 
 
 MISUSED: dict[str, tuple[Callable[[], Any], str]] = {
-    "too few": (lambda: near(), r"near\(\) takes 1 argument, not 0; write near\(d\)."),
+    "too few": (near, r"near\(\) takes 1 argument, not 0; write near\(d\)."),
     "too many": (lambda: near(far, far), "takes 1 argument, not 2"),
     "no function": (lambda: function(5), "function.5. takes a definition"),  # type: ignore[arg-type]
     "a default": (lambda: function(lambda a=1: a), "has the parameter `a=1`; write plain names"),
     "any number": (lambda: function(lambda *a: a), "write plain names"),
-    "nothing returned": (lambda: function(lambda: None)(), "returns None, a NoneType"),
-    "no actions": (lambda: function(lambda: [])(), "returns nothing"),
-    "a number": (lambda: function(lambda: 5)(), "returns 5, an int; return a formula, or a list of actions"),
+    "nothing returned": (function(lambda: None), "returns None, a NoneType"),
+    "no actions": (function(lambda: []), "returns nothing"),
+    "a number": (function(lambda: 5), "returns 5, an int; return a formula, or a list of actions"),
     "an action for a formula": (lambda: reset.formula(far), "does something and has no value"),
     "a formula for an action": (lambda: near.actions(far), "has a value and does nothing"),
 }

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.action import Action, assign, send, when
 from rovercheck.spec_model.lang.array import array
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
 from rovercheck.spec_model.lang.domain import enumeration, integer
@@ -116,7 +116,7 @@ def test_a_condition(label: str) -> None:
     assert structure(guard) == structure(meant)
 
 
-DONE = {
+DONE: dict[str, list[Action]] = {
     "left = 60 * minutes": [assign(left, const(60, "s/min") * minutes)],
     "left := 60 s/min * minutes": [assign(left, const(60, "s/min") * minutes)],
     "n = 1; left = 0": [assign(count, 1), assign(left, 0)],
