@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from rovercheck.spec_model.lang.action import Action, Assign, If, Send
+from rovercheck.spec_model.lang.action import Action, Assign, If, Send, shared_actions
 from rovercheck.spec_model.lang.domain import own
 from rovercheck.spec_model.lang.errors import ModelError, brief, with_article
 from rovercheck.spec_model.lang.expr import Expr, Named, Operand, as_formula, const
@@ -41,7 +41,7 @@ class Function:
         if wrong or not actions:
             what = f"{brief(wrong[0])}, {with_article(type(wrong[0]).__name__)}" if wrong else "nothing"
             raise ModelError(f"{self.name}() returns {what}; return a formula, or a list of actions.")
-        return actions
+        return shared_actions(f"{self.name}({', '.join(map(str, given))})", actions)
 
     def formula(self, *arguments: Operand) -> Expr:
         """The formula.  Raises ``ModelError`` where the function returns actions."""

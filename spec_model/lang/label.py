@@ -26,7 +26,7 @@ def _show(expr: Expr, above: int) -> str:
     match expr:
         case Const(value, sort):
             shown = constant(value, sort)
-            return f"({shown})" if above >= 5 and isinstance(sort, Num) and "/" in shown else shown
+            return f"({shown})" if above > 5 and isinstance(sort, Num) and "/" in shown else shown
         case Var(name):
             return name
         case Named(name):
@@ -60,7 +60,7 @@ def _between(level: int, sign: str, alike: Collection[Op] = ()) -> Row:
     def inner(arg: Expr, first: bool) -> int:
         while isinstance(arg, Apply) and arg.op is Op.SCALE:
             arg = arg.args[0]
-        grouped = arg.op in alike if isinstance(arg, Apply) else len(alike) == len(Op)
+        grouped = arg.op in alike if isinstance(arg, Apply) else bool(alike)
         return level if first or grouped else level + 1
 
     def row(args: Sequence[Expr], above: int) -> str:

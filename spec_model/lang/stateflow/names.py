@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rovercheck.spec_model.lang.action import Action, expressions, writes
+from rovercheck.spec_model.lang.action import Action, call_of, each_action, expressions, writes
 from rovercheck.spec_model.lang.array import Array
 from rovercheck.spec_model.lang.chart import Chart, Path, State, Transition
 from rovercheck.spec_model.lang.domain import Domain, Enum
@@ -40,6 +40,7 @@ class LabelNames:
     functions: dict[str, Function] = field(default_factory=dict)
     enumerations: dict[str, Enum] = field(default_factory=dict)
     charts: dict[str, Chart] = field(default_factory=dict)
+    calls: dict[str, tuple[Action, ...]] = field(default_factory=dict)
     unclear: set[str] = field(default_factory=set)
     own: Chart | None = None
 
@@ -207,6 +208,8 @@ def names_of(chart: Chart, path: Path = (), data: Sequence[object] = ()) -> Labe
                 names.values.setdefault(name, value)
         for enum in near.enumerations.values():
             names._add_enum(enum)
+        for call in filter(None, map(call_of, _actions(level))):
+            names.calls.setdefault(call.name, call.actions)
     return names
 
 
@@ -219,6 +222,14 @@ def _formulas(state: State) -> Iterator[Expr]:
             for transition in junction.transitions:
                 yield from _of_transition(transition)
         yield from _of_actions((*one.entry, *one.during, *one.exit))
+
+
+def _actions(state: State) -> Iterator[Action]:
+    """Every action in a state and below it."""
+    for _, one in state.walk():
+        segments = [*one.default, *one.transitions, *(t for j in one.junctions for t in j.transitions)]
+        lists = [one.entry, one.during, one.exit, *(part for t in segments for part in (t.do, t.then))]
+        yield from (action for actions in lists for action in each_action(actions))
 
 
 def _of_transition(transition: Transition) -> Iterator[Expr]:

@@ -233,6 +233,9 @@ class _Label:
         name, given = str(node.children[0]), [n for part in subtrees(node) for n in subtrees(part)]
         if name in self.names.functions:
             return self.names.functions[name].actions(*(self.formulas.formula(one) for one in given))
+        at = span(node)
+        if call := self.names.calls.get(self.text[at.start : at.end]):
+            return call
         if name == "send":
             if len(given) != 2:
                 said = "send() names an event and a state: `send(stop, Motor)`; nothing is sent to all."

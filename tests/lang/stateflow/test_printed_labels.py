@@ -115,7 +115,8 @@ quick = named("T in ]-5;55[", all_of(n > -5, n < 5))
 called = named("close(n)", n < 7)
 DATA = (mode, other, a, b, keyword, odd, n, m, far, mask, nearby, quick, called)
 
-numbers = st.fractions(-9, 9, max_denominator=20).map(const)
+numbers = st.integers(-90, 90).map(lambda k: const(Fraction(k, 8)))
+fractions = st.fractions(-9, 9, max_denominator=20).map(const)
 spans = st.one_of(
     st.integers(0, 99).map(lambda k: k * ticks),
     st.integers(0, 99999).map(lambda k: k * ms),
@@ -162,6 +163,7 @@ def conditions_of(leaves: st.SearchStrategy[Expr]) -> st.SearchStrategy[Expr]:
 
 
 counted = st.recursive(st.one_of(st.sampled_from([n, m, mask]), numbers), _number, max_leaves=6)
+divided = st.recursive(st.one_of(st.sampled_from([n, m, mask]), fractions), _number, max_leaves=6)
 SIGNS = (Expr.__lt__, Expr.__le__, Expr.__gt__, Expr.__ge__, Expr.__eq__, Expr.__ne__)
 timed = st.one_of(
     spans.map(after),
@@ -255,7 +257,7 @@ def test_random_conditions(condition: Expr) -> None:
     assert not _timeless(condition) or same(read, condition)
 
 
-@given(counted)
+@given(divided)
 def test_random_numbers(number: Expr) -> None:
     read = formula_of(text(number), NAMES, Num())
     assert same(read, number)
