@@ -12,7 +12,7 @@ Gaps are counted in ticks of 20 ms, up to a number that stands for all longer on
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rovercheck.spec_model.lang.action import Action, assign, shared_actions, when
+from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.array import array
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import integer
@@ -104,11 +104,11 @@ def forgotten(source: SourceSignals) -> Slow2:
     note = Block(f"{source.name}.note", [when(source.update, [assign(pending, True)])],
                  text="Over-approximation: the gaps are forgotten.")  # fmt: skip
     asked = _asked(source)
-    return Slow2(note, shared_actions(f"slow2({source.name})", [
+    return Slow2(note, (
         when(asked & pending, [assign(source.deg, mean_slow(source))]),
         assign(pending, False),
         assign(asked, True),
-    ]))  # fmt: skip
+    ))  # fmt: skip
 
 
 def mean_slow(source: SourceSignals) -> Var:
@@ -185,5 +185,4 @@ def _asked(source: SourceSignals) -> Var:
 
 def _question(source: SourceSignals, pending: Var, at_gap: list[Action]) -> tuple[Action, ...]:
     asked = _asked(source)
-    asking = when(asked & (pending > 0), at_gap), assign(pending, 0), assign(asked, True)
-    return shared_actions(f"slow2({source.name})", asking)
+    return when(asked & (pending > 0), at_gap), assign(pending, 0), assign(asked, True)

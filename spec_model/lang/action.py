@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from operator import is_
 from typing import Union
 
 from rovercheck.spec_model.lang.domain import Bool, Num, show
@@ -92,7 +91,7 @@ def send(event: str, receiver: str) -> Send:
     return Send(event, receiver)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ActionCall:
     """Actions that a chart shows as one, under the name of what does them."""
 
@@ -114,15 +113,22 @@ def shared_actions(name: str, actions: Sequence[Action]) -> tuple[Action, ...]:
     """
     made = tuple(replace(action) for action in several(f"shared_actions({name!r}, ...)", "actions", actions))
     call = ActionCall(name, made)
-    for action in made:
-        action.__dict__[_CALL] = call
+    for number, action in enumerate(made):
+        action.__dict__[_CALL] = call, number
     return made
 
 
 def call_of(action: Action) -> ActionCall | None:
     """The shared actions that an action is part of."""
-    call: ActionCall | None = action.__dict__.get(_CALL)
+    call: ActionCall | None = action.__dict__.get(_CALL, (None, 0))[0]
     return call
+
+
+def kept(old: Action, new: Action) -> Action:
+    """What a change has made of an action: still part of what is shared, if a chart shows it as before."""
+    if _CALL in old.__dict__ and str(new) == str(old):
+        new.__dict__[_CALL] = old.__dict__[_CALL]
+    return new
 
 
 def as_calls(actions: Sequence[Action]) -> tuple["Action | ActionCall", ...]:
@@ -130,13 +136,11 @@ def as_calls(actions: Sequence[Action]) -> tuple["Action | ActionCall", ...]:
     shown, at = list[Action | ActionCall](), 0
     while at < len(actions):
         call = call_of(actions[at])
-        part = actions[at : at + len(call.actions)] if call else ()
-        if call and all(map(is_, part, call.actions)) and len(part) == len(call.actions):
-            shown.append(call)
-            at += len(part)
-        else:
-            shown.append(actions[at])
-            at += 1
+        count = len(call.actions) if call else 1
+        part = [action.__dict__.get(_CALL) for action in actions[at : at + count]]
+        whole = call is not None and part == [(call, number) for number in range(count)]
+        shown.append(call if call and whole else actions[at])
+        at += count if whole else 1
     return tuple(shown)
 
 
