@@ -95,7 +95,9 @@ def test_a_wrong_engine_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_an_engine_that_gives_up_on_what_is_true_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     assert doctor.tried("bmc") == "", "it proves nothing, and looks as deep as it was asked to"
 
-    def giving_up(task: Task, systems: Mapping[str, System], engine: str, limits: Limits) -> Iterator[Result]:
+    def giving_up(
+        task: Task, systems: Mapping[str, System], engine: str, limits: Limits
+    ) -> Iterator[Result]:
         for found in decide(task, systems, engine, limits):
             unknown = Unknown("no more time", 7, "bmc")
             yield replace(found, verdict=unknown) if found.property.id == "true" else found
