@@ -94,6 +94,7 @@ class _Found:
         self.systems: dict[str, System] = {}
         self.properties: dict[str, Property] = {}
         self._files: dict[int, tuple[object, Path]] = {}
+        self._written: list[System] = []
         for file, values in files:
             for thing in _things(values):
                 self._files.setdefault(id(thing), (thing, file))
@@ -107,6 +108,7 @@ class _Found:
         """Look at the systems, and make one of each chart that is in none of them."""
         things = list(self._files.values())
         written = [s for s, _ in things if isinstance(s, System) and isinstance(s.components, tuple)]
+        self._written = written
         inside = {id(chart) for system in written for chart in system.charts}
         systems: list[tuple[System | Chart, Path]] = [(s, f) for s, f in things if isinstance(s, System)]
         systems += [(c, f) for c, f in things if isinstance(c, Chart) and id(c) not in inside]
@@ -139,7 +141,7 @@ class _Found:
             if not self._of_right_kinds(written, file):
                 self.ids |= {written.id} if isinstance(written.id, str) else set()
                 continue
-            prop, place = one_line(written), written.place or shown(file)
+            prop, place = self._at_home(one_line(written)), written.place or shown(file)
             if prop.id in self.properties:
                 first = self.properties[prop.id].place
                 also = f", here and in {first}" if first else ""
@@ -157,6 +159,13 @@ class _Found:
         for name in self.sound if not self.faults else ():
             about = [p for p in self.properties.values() if p.on == name]
             self.faults += monitor_faults(self.systems[name], about)
+
+    def _at_home(self, prop: Property) -> Property:
+        """A property about a chart that runs in one system alone is about that system."""
+        if prop.on in self.names:
+            return prop
+        inside = {s.name for s in self._written for c in s.charts if c is prop.about or c.name == prop.on}
+        return replace(prop, on=inside.pop()) if len(inside) == 1 else prop
 
     def _of_right_kinds(self, thing: System | Chart | Property, file: Path) -> bool:
         faults = list(kind_faults(thing, shown(file)))

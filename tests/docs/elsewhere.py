@@ -167,6 +167,10 @@ GIVEN = {
 MADE = "made by the search that the page speaks of, which takes minutes"
 SHOWN = {
     (
+        "docs/labels.md",
+        "wrong.py:10:61: Oven, transition 1 of Off: `dor_open` is unknown here. Did you mean 'door_open'?",
+    ): "tests/model_files/test_statements.py compares what is told",
+    (
         "docs/certificates.md",
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),

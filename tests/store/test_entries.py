@@ -259,7 +259,8 @@ def test_certificates_of_other_shapes_are_malformed() -> None:
 
 TOLD = ToldVerdict(
     "P", "Text.", ("R",), False, "relay", "relay", "violated", False, "bmc", "after 2 ticks", "a run", 2,
-    "violated", "violated", "", True, Exit.AS_EXPECTED, Exit.AS_EXPECTED, Gravity(0, 1, 2, (False, -1, 2, "P")),
+    "violated", "violated", "", True, Exit.AS_EXPECTED, Exit.AS_EXPECTED,
+    Gravity(0, 1, 2, (False, -1, 2, "P")),
     "H-1", "critical, H-1: It breaks.", "critical", "It breaks.", "It breaks.", "2026-11-21",
     {"state": "open", "because": "", "owner": "", "on": None, "until": None}, "",
 )  # fmt: skip

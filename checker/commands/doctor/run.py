@@ -42,6 +42,7 @@ REQUIRED = {
     "hypothesis": "random runs of compare",
     "jinja2": "HTML pages",
     "junitparser": "JUnit files",
+    "lark": "labels of charts as text",
     "llvmlite": "the engine explicit, which compiles charts",
     "markupsafe": "HTML pages, escaped",
     "networkx": "state graphs",
