@@ -17,7 +17,7 @@ from rovercheck.checker.certify.file import unpacked
 from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.commands.check.unchanged import ToldModel, ToldProperty, ToldStore
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.commands.shared.told import ToldDecision, ToldVerdict
 from rovercheck.checker.results.gravity import Gravity
 from rovercheck.checker.results.trace import NecessaryInputs, Needed
 from rovercheck.checker.results.verdict import Exhausted, Proved, Run, StoredInvariant, StoredRun, Violated
@@ -262,7 +262,7 @@ TOLD = ToldVerdict(
     "violated", "violated", "", True, Exit.AS_EXPECTED, Exit.AS_EXPECTED,
     Gravity(0, 1, 2, (False, -1, 2, "P")),
     "H-1", "critical, H-1: It breaks.", "critical", "It breaks.", "It breaks.", "2026-11-21",
-    {"state": "open", "because": "", "owner": "", "on": None, "until": None}, "",
+    ToldDecision("open"), "",
 )  # fmt: skip
 MODEL = ToldModel({"P": ToldProperty("relay", False)}, ["relay"], {"P": TOLD})
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.told import DecisionRow, Severity, ToldVerdict, Word, worst
+from rovercheck.checker.commands.shared.told import Severity, ToldDecision, ToldVerdict, Word, worst
 from rovercheck.checker.io.document import Count, Text
 from rovercheck.checker.results.gravity import gravest_first
 
@@ -28,6 +28,19 @@ class ChainRow(TypedDict):
     """Whether every link holds; null if that is not known."""
     failing: list[str]
     """The links that are violated, or else not decided."""
+
+
+class DecisionRow(TypedDict):
+    """Whether somebody lives with a finding."""
+
+    state: Literal["open", "accepted", "expired"]
+    """Open as long as nobody does; expired once its last day is over."""
+    because: str
+    owner: str
+    on: str | None
+    """The day on which it was decided, such as 2026-03-01."""
+    until: str | None
+    """The last day on which it is accepted; null without an end."""
 
 
 class VerdictRow(TypedDict):
@@ -141,7 +154,17 @@ def _row(one: ToldVerdict, places: Mapping[str, int]) -> VerdictRow:
         "severity": one.severity,
         "place": places.get(one.id),
         "since": one.since,
-        "decision": one.decision,
+        "decision": None if one.decision is None else _decision(one.decision),
+    }
+
+
+def _decision(one: ToldDecision) -> DecisionRow:
+    return {
+        "state": one.state,
+        "because": one.because,
+        "owner": one.owner,
+        "on": one.on,
+        "until": one.until,
     }
 
 

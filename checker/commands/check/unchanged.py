@@ -9,14 +9,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from datetime import date
 from hashlib import sha256
-from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
-
-from typing_extensions import is_typeddict
+from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from rovercheck.checker.cache import entries
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import SearchOptions, SelectionOptions
-from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.commands.shared.told import ToldDecision, ToldVerdict
 from rovercheck.checker.results.gravity import Gravity
 from rovercheck.checker.store.tree import tree_key
 
@@ -118,10 +116,11 @@ def _verdict(row: Mapping[str, Any]) -> ToldVerdict:
     lists = {name: tuple(row[name]) for name in ("covers", "fired")}
     gravity = row["gravity"]
     how = _record(Gravity, {**gravity, "within": tuple(gravity["within"])})
-    return _record(ToldVerdict, {**row, **codes, **lists, "gravity": how})
+    decision = None if row["decision"] is None else _record(ToldDecision, row["decision"])
+    return _record(ToldVerdict, {**row, **codes, **lists, "gravity": how, "decision": decision})
 
 
-Record = TypeVar("Record", Gravity, ToldProperty, ToldVerdict)
+Record = TypeVar("Record", Gravity, ToldDecision, ToldProperty, ToldVerdict)
 
 
 def _record(kind: type[Record], row: Mapping[str, Any]) -> Record:
@@ -134,13 +133,6 @@ def _record(kind: type[Record], row: Mapping[str, Any]) -> Record:
 
 
 def _is(value: object, wanted: Any) -> bool:
-    if is_typeddict(wanted):
-        known = get_type_hints(wanted)
-        return (
-            isinstance(value, dict)
-            and value.keys() == known.keys()
-            and all(_is(value[name], kind) for name, kind in known.items())
-        )
     if isinstance(wanted, type) and not get_args(wanted):
         return type(value) is wanted
     match get_origin(wanted), get_args(wanted):

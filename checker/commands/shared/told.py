@@ -7,8 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from typing_extensions import TypedDict
-
 from rovercheck.checker.results.exit_code import Exit
 from rovercheck.checker.results.gravity import Gravity
 
@@ -24,17 +22,15 @@ Severity = Literal["catastrophic", "critical", "marginal", "unrated", "negligibl
 """How bad a hazard is (``properties.hazards``)."""
 
 
-class DecisionRow(TypedDict):
-    """Whether somebody lives with a finding."""
+@dataclass(frozen=True)
+class ToldDecision:
+    """Whether somebody lives with a finding; days are written 2026-03-01, None where there is none."""
 
     state: Literal["open", "accepted", "expired"]
-    """Open as long as nobody does; expired once its last day is over."""
-    because: str
-    owner: str
-    on: str | None
-    """The day on which it was decided, such as 2026-03-01."""
-    until: str | None
-    """The last day on which it is accepted; null without an end."""
+    because: str = ""
+    owner: str = ""
+    on: str | None = None
+    until: str | None = None
 
 
 @dataclass(frozen=True)
@@ -81,7 +77,7 @@ class ToldVerdict:
     effect: str
     says: str
     since: str | None
-    decision: DecisionRow | None
+    decision: ToldDecision | None
     lapsed: str
     variant: str = ""
     certificate: Mapping[str, str] | None = None
@@ -167,20 +163,15 @@ def _says(one: "CheckedProperty") -> str:
     return f"Cannot be reached: {prop.text}" if isinstance(prop.form, Reachable) else prop.text
 
 
-def decided(entry: "Expected") -> DecisionRow | None:
+def decided(entry: "Expected") -> ToldDecision | None:
     """What was decided about a finding that is on record."""
     if entry.verdict == "proved":
         return None
     one = entry.accepted
     if one is None:
-        return {"state": "open", "because": "", "owner": "", "on": None, "until": None}
-    return {
-        "state": "expired" if one.expired else "accepted",
-        "because": one.because,
-        "owner": one.owner,
-        "on": None if one.on is None else one.on.isoformat(),
-        "until": None if one.until is None else one.until.isoformat(),
-    }
+        return ToldDecision("open")
+    days = (None if day is None else day.isoformat() for day in (one.on, one.until))
+    return ToldDecision("expired" if one.expired else "accepted", one.because, one.owner, *days)
 
 
 def _fired(one: "CheckedProperty") -> tuple[str, ...]:
