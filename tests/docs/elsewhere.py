@@ -34,6 +34,9 @@ COMMANDS = {
     "python3 -m venv .venv": INSTALLS,
     ". .venv/bin/activate": INSTALLS,
     "pip install ../rovercheck": INSTALLS,
+    ".venv/bin/pip install ../rovercheck": INSTALLS,
+    "pip install 'rovercheck[certificates]'": INSTALLS,
+    "pip install '../rovercheck[all]'": INSTALLS,
     "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
     "make test-full": MAKES,
@@ -155,6 +158,9 @@ SHOWN = {
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
     ("docs/generate-tests.md", "board1"): MADE,
+    ("docs/installation.md", "docker build -t rovercheck ."): (
+        "needs Docker; tests/packaging/test_containers.py follows the Dockerfile as far as a machine without it can"
+    ),
     ("docs/inside.md", "spec_model/         properties/        a user's file"): (
         "a drawing; tests/test_architecture.py has the order of the folders"
     ),

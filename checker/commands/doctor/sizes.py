@@ -1,8 +1,10 @@
 """How much room packages take on the disk, as they are installed here."""
 
 import re
+from contextlib import suppress
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
-from os import stat
+from importlib.util import cache_from_source
+from os import fspath, stat
 
 NAME = re.compile(r"[\w.-]+")
 """The name at the beginning of a requirement (PEP 508)."""
@@ -46,10 +48,11 @@ def _plain(requirement: str) -> re.Match[str] | None:
 
 
 def _size(one: Distribution) -> int:
+    """What is listed, and what Python compiled of it, which only some installers list too."""
+    listed = {fspath(one.locate_file(file)) for file in one.files or ()}  # type: ignore[arg-type]
+    compiled = {cache_from_source(file) for file in listed if file.endswith(".py")}
     total = 0
-    for file in one.files or ():
-        try:
-            total += stat(one.locate_file(file)).st_size  # type: ignore[arg-type]
-        except OSError:  # listed, and taken away since
-            continue
+    for file in listed | compiled:
+        with suppress(OSError):  # taken away since, or not compiled
+            total += stat(file).st_size
     return total
