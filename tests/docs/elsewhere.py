@@ -159,7 +159,7 @@ SHOWN = {
     ): ("tests/cli/test_certify.py has the line"),
     ("docs/generate-tests.md", "board1"): MADE,
     ("docs/installation.md", "docker build -t rovercheck ."): (
-        "needs Docker; tests/packaging/test_containers.py follows the Dockerfile as far as a machine without it can"
+        "needs Docker; tests/packaging/test_containers.py builds what the Dockerfile does, without it"
     ),
     ("docs/inside.md", "spec_model/         properties/        a user's file"): (
         "a drawing; tests/test_architecture.py has the order of the folders"

@@ -28,12 +28,12 @@ def docs(name: str | None, opened: bool, place: bool) -> Exit:
         raise UsageError("--open and --path exclude each other; write one of them.")
     folder = installed()
     known = pages(folder)
-    file = known[_named(name, known)] if name else folder / f"{HOME}.md"
+    file = known[_named(name, known)] if name is not None else folder / f"{HOME}.md"
     if opened:
         _open(folder, file)
     elif place:
-        print(file if name else folder)
-    elif name:
+        print(folder if name is None else file)
+    elif name is not None:
         _show(file)
     else:
         _list(known)
