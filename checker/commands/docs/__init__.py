@@ -6,10 +6,10 @@ from rovercheck.checker.commands.shared.codes import Exit
 
 EXAMPLES = """\b
 Examples:
-  rovercheck docs               the pages there are
-  rovercheck docs tutorial      one of them
-  rovercheck docs ci --path     where its file is
-  rovercheck docs ci --open     in the browser
+  rovercheck docs
+  rovercheck docs tutorial
+  rovercheck docs ci --path
+  rovercheck docs ci --open
 """
 
 

@@ -4,7 +4,7 @@ import re
 from contextlib import suppress
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from importlib.util import cache_from_source
-from os import fspath, stat
+from os import stat
 
 NAME = re.compile(r"[\w.-]+")
 """The name at the beginning of a requirement (PEP 508)."""
@@ -49,7 +49,7 @@ def _plain(requirement: str) -> re.Match[str] | None:
 
 def _size(one: Distribution) -> int:
     """What is listed, and what Python compiled of it, which only some installers list too."""
-    listed = {fspath(one.locate_file(file)) for file in one.files or ()}  # type: ignore[arg-type]
+    listed = {str(one.locate_file(file)) for file in one.files or ()}
     compiled = {cache_from_source(file) for file in listed if file.endswith(".py")}
     total = 0
     for file in listed | compiled:
