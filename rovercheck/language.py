@@ -21,6 +21,7 @@ from rovercheck.properties.forms import (
     until,
 )
 from rovercheck.spec_model.lang.action import Action, assign, send, when
+from rovercheck.spec_model.lang.array import Array, array
 from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, Junction, State, Transition, to
 from rovercheck.spec_model.lang.domain import Domain, boolean, chosen, enumeration, fixed, integer
 from rovercheck.spec_model.lang.errors import ModelError
@@ -38,6 +39,7 @@ from rovercheck.spec_model.lang.expr import (
     member,
     var,
 )
+from rovercheck.spec_model.lang.function import Function, function
 from rovercheck.spec_model.lang.system import Assumption, Note, System, in_order
 from rovercheck.spec_model.lang.time import Span, ms, sec, tick, ticks
 from rovercheck.spec_model.lang.words import (
@@ -62,12 +64,14 @@ __all__ = [
     "FALSE",
     "TRUE",
     "Action",
+    "Array",
     "Assumption",
     "Block",
     "Chart",
     "Domain",
     "Enabled",
     "Expr",
+    "Function",
     "Junction",
     "ModelError",
     "Note",
@@ -82,6 +86,7 @@ __all__ = [
     "all_of",
     "always",
     "any_of",
+    "array",
     "assign",
     "bit",
     "boolean",
@@ -93,6 +98,7 @@ __all__ = [
     "enumeration",
     "fixed",
     "flag",
+    "function",
     "held",
     "holds_after",
     "holds_for",

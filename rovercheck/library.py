@@ -207,7 +207,10 @@ def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> V
     [found] = _results([prop], model, search)
     if isinstance(found.verdict, Unknown) or not isinstance(found.verdict.because, Trace):
         raise NoTrace(f"{prop.id} is {found.verdict.word} and has no trace: {evidence(found)}.")
-    return View("trace", _explained(found.verdict.because, prop, model), model.systems)
+    on_record = model.expected(prop.id)
+    because = on_record.because if on_record.verdict == found.verdict.word else ""
+    run = _explained(found.verdict.because, prop, model).with_reason(because)
+    return View("trace", run, model.systems)
 
 
 def load(path: str | Path) -> Model:

@@ -28,6 +28,7 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import kept_runs
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.catalogue import catalogue, expected
@@ -58,9 +59,9 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
         for c in decided
     ]
     assert len(verdicts) == len(affordable)
-    every = [told(c, systems()) for c in verdicts]
+    every = [told(c, order_of(rover())) for c in verdicts]
     assert [line(one) for one in every if one.exit is not Exit.AS_EXPECTED] == []
-    guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
+    guide = Guide(causes="reports/README.md")
     summary(every, guide)
     said = capsys.readouterr().out.splitlines()
     cases_and_faults = [*about_cases(every), *about_faults(every)]
@@ -89,7 +90,7 @@ def sample() -> tuple[list[str], list[str]]:
     """The lines of verdicts that the README shows of ``make check``, and those at its end, unwrapped."""
     text = (ROOT / "README.md").read_text(encoding="utf-8").partition("    $ make check\n")[2]
     block = re.split(r"\n(?=\S)", text)[0].rstrip()
-    whole = re.sub(r"\n {8}(?=\S)", " ", block)  # a line that goes on in the next
+    whole = re.sub(r"\n {10}(?=\S)", " ", block)  # a line that goes on in the next
     lines = [piece.removeprefix("    ") for piece in whole.splitlines()]
     end = lines.index("")
     return [one for one in lines[:end] if not one.startswith("  ...")], lines[end + 1 :]

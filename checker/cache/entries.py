@@ -21,6 +21,8 @@ MOST_BYTES = 256 << 20
 """Bytes of all entries together; beyond that the longest unused are removed, down to three quarters."""
 SELDOM = 128
 """A process looks through the folder again when it has written the 128th part of that: there may be many."""
+MEANINGLESS = ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError
+"""What reading an entry as JSON of some shape raises where it is of another one."""
 
 _unseen: list[int] = []
 """The sizes of what this process has written since it looked; nothing before it has."""

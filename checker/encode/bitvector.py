@@ -74,6 +74,8 @@ class Encoder:
 
     def __call__(self, expr: Expr) -> Term:
         """The Z3 term of a formula."""
+        if id(expr) in self._term:
+            return self._term[id(expr)]
         for node in postorder(expr):
             if id(node) not in self._term:
                 self._range[id(node)] = interval(node, self._range)

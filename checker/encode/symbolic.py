@@ -49,14 +49,18 @@ class SymbolicTransition:
     terms: Terms
 
 
-def transition(system: TransitionSystem, terms: Terms | None = None) -> SymbolicTransition:
+def transition(
+    system: TransitionSystem, terms: Terms | None = None, known: Mapping[str, int] | None = None
+) -> SymbolicTransition:
     """Execute the step symbolically, with formulas of a table of their own, or of that of another system.
 
-    Raises ``ModelError`` on a temporal word.
+    Variables of which the value before the tick is ``known`` (raw, by name) are constants.  Raises
+    ``ModelError`` on a temporal word.
     """
     terms = terms or Terms()
-    store = SymbolicStore()
-    store.update({v.name: terms.var(v) for v in (*system.variables, *system.inputs, *system.frozen)})
+    store, known = SymbolicStore(), known or {}
+    for v in (*system.variables, *system.inputs, *system.frozen):
+        store[v.name] = terms.const(known[v.name], v.sort) if v.name in known else terms.var(v)
     executor, facts = _Executor(terms), Facts(terms.range)
     assume = executor.value(system.assume, store, facts)
     executor.run(system.step, store, facts)

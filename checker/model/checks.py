@@ -27,6 +27,10 @@ from rovercheck.spec_model.lang.wellformed.places import name_of, transition_nam
 def system_faults(system: System, place: str) -> Iterator[str]:
     """What has no meaning in a system that is written at a place, a line each."""
     yield from text_faults(system, place)
+    labels = [fault for chart in system.charts for fault in chart.label_faults]
+    if labels:
+        yield from labels
+        return
     try:
         check_system(system)
     except ModelError as error:
@@ -59,7 +63,9 @@ def not_about(prop: Property, systems: Mapping[str, System], names: Collection[s
 
 def _is_another(prop: Property, system: System) -> bool:
     """Whether a property is about something else than the system of that name."""
-    return prop.about is not None and prop.about is not system and [prop.about] != list(system.components)
+    if isinstance(prop.about, Chart):
+        return all(chart is not prop.about for chart in system.charts)
+    return prop.about is not None and prop.about is not system
 
 
 def monitor_faults(system: System, properties: Sequence[Property]) -> Iterator[str]:

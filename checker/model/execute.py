@@ -4,11 +4,13 @@ import linecache
 import re
 import traceback
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 
 from rovercheck.checker.model import shown
 from rovercheck.checker.model.neighbours import Neighbours
+from rovercheck.checker.model.statements import statement_faults
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
 
@@ -46,7 +48,11 @@ def modules_of(files: Sequence[Path]) -> tuple[Neighbours, list[tuple[Path, Modu
             try:
                 modules.append((file, _run(neighbours, file)))
             except ModelError as error:
-                faults.append(str(error).replace(f"{neighbours.package}.", ""))
+                name = f"{neighbours.package}.{file.stem}"
+                whole = neighbours.folder / file.name
+                others = statement_faults(whole, name, partial(_located, neighbours=neighbours, file=file))
+                told = dict.fromkeys([str(error), *others])
+                faults += (one.replace(f"{neighbours.package}.", "") for one in told)
     return neighbours, modules, faults
 
 

@@ -27,7 +27,7 @@ PLAIN: Mapping[type, Mapping[str, Any]] = {
     Enabled: {"name": str, "by": Expr, "components": tuple[Component, ...]},
 }
 """What belongs into the things of the language that are no data classes."""
-DERIVED = ("place", "area", "about", "step_ms")
+DERIVED = ("place", "area", "about", "step_ms", "label")
 """What no user writes."""
 ARGUMENTS = {"guard": "when", "event": "on", "arg": "the condition"}
 """How a user writes what is kept under another name."""

@@ -16,9 +16,10 @@ from rovercheck.checker.model.checks import (
 )
 from rovercheck.checker.model.execute import files_of, modules_of
 from rovercheck.checker.model.kinds import kind_faults
-from rovercheck.checker.model.records import REGISTER, recorded, register
+from rovercheck.checker.model.records import REGISTER, hazards_of, recorded, register
 from rovercheck.checker.model.texts import one_line, text_faults
 from rovercheck.properties.forms import Property
+from rovercheck.properties.hazards import Hazard
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
@@ -31,21 +32,26 @@ def load(path: Path) -> Model:
     Every ``System``, ``Chart`` and ``Property`` at the level of a module, in tuples and lists too, is part
     of it.  A chart that is in no system becomes one of its own, with free inputs and its name.  Verdicts on
     record are read from ``baseline.toml`` beside it, requirements from ``requirements.toml`` or a mapping
-    ``REQUIREMENTS``.  Raises ``ModelError`` for what has no meaning, with a line for each fault; only a thing
-    that is faulty already, or what it is about, is not looked at further.
+    ``REQUIREMENTS``, hazards from ``hazards.toml``.  Raises ``ModelError`` for what has no meaning, with a
+    line for each fault; only a thing that is faulty already, or what it is about, is not looked at further.
     """
     files = files_of(path)
     neighbours, modules, faults = modules_of(files)
     found = _Found([(file, vars(module).values()) for file, module in modules], faults)
     found.take_all()
-    on_record, requirements = {}, dict[str, Requirement]()
+    on_record, requirements, hazards = {}, dict[str, Requirement](), dict[str, Hazard]()
+    beside = list[str]()
     if found.whole:
+        folder = files[0].parent
+        with _gathered(beside):
+            file = folder / f"{REGISTER.lower()}.toml"
+            requirements, wrong = register(modules, file, found.properties.values())
+            beside += wrong
+        with _gathered(beside):
+            hazards = hazards_of(folder, None if beside else requirements)
         with _gathered(faults):
-            on_record = recorded(path, found.ids)
-        with _gathered(faults):
-            beside = files[0].parent / f"{REGISTER.lower()}.toml"
-            requirements, wrong = register(modules, beside, found.properties.values())
-            faults += wrong
+            on_record = recorded(path, found.ids, None if beside else hazards)
+        faults += beside
     if faults:
         raise ModelError("\n".join(dict.fromkeys(faults)))
     if not found.systems:
@@ -54,7 +60,7 @@ def load(path: Path) -> Model:
             f"Write `name = Chart(...)` there; {EXAMPLE}"
         )
     check_portable((found.systems, found.properties), neighbours.package, path)
-    return Model(found.systems, found.properties, on_record, requirements, path)
+    return Model(found.systems, found.properties, on_record, requirements, path, hazards=hazards)
 
 
 def model(*things: Chart | System | Property) -> Model:
@@ -88,6 +94,7 @@ class _Found:
         self.systems: dict[str, System] = {}
         self.properties: dict[str, Property] = {}
         self._files: dict[int, tuple[object, Path]] = {}
+        self._written: list[System] = []
         for file, values in files:
             for thing in _things(values):
                 self._files.setdefault(id(thing), (thing, file))
@@ -101,6 +108,7 @@ class _Found:
         """Look at the systems, and make one of each chart that is in none of them."""
         things = list(self._files.values())
         written = [s for s, _ in things if isinstance(s, System) and isinstance(s.components, tuple)]
+        self._written = written
         inside = {id(chart) for system in written for chart in system.charts}
         systems: list[tuple[System | Chart, Path]] = [(s, f) for s, f in things if isinstance(s, System)]
         systems += [(c, f) for c, f in things if isinstance(c, Chart) and id(c) not in inside]
@@ -133,7 +141,7 @@ class _Found:
             if not self._of_right_kinds(written, file):
                 self.ids |= {written.id} if isinstance(written.id, str) else set()
                 continue
-            prop, place = one_line(written), written.place or shown(file)
+            prop, place = self._at_home(one_line(written)), written.place or shown(file)
             if prop.id in self.properties:
                 first = self.properties[prop.id].place
                 also = f", here and in {first}" if first else ""
@@ -151,6 +159,13 @@ class _Found:
         for name in self.sound if not self.faults else ():
             about = [p for p in self.properties.values() if p.on == name]
             self.faults += monitor_faults(self.systems[name], about)
+
+    def _at_home(self, prop: Property) -> Property:
+        """A property about a chart that runs in one system alone is about that system."""
+        if prop.on in self.names:
+            return prop
+        inside = {s.name for s in self._written for c in s.charts if c is prop.about or c.name == prop.on}
+        return replace(prop, on=inside.pop()) if len(inside) == 1 else prop
 
     def _of_right_kinds(self, thing: System | Chart | Property, file: Path) -> bool:
         faults = list(kind_faults(thing, shown(file)))

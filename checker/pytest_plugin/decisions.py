@@ -14,6 +14,7 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.render.verdict_text import evidence, recorded
+from rovercheck.checker.store.verdicts import store
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.searches import SearchSettings
 
@@ -74,7 +75,13 @@ class Decider:
         faults: list[Fault] = []
         try:
             with listening(faults.append):
-                search = SearchSettings(self.engine, self.limits, self.jobs, invariants_of(model))
+                search = SearchSettings(
+                    self.engine,
+                    self.limits,
+                    self.jobs,
+                    invariants_of(model),
+                    store=store(self.engine, self.limits),
+                )
                 found = results(properties, model.systems, search, quiet=True)
                 for one in found:  # no progress line: with `pytest -s` the line is one of pytest's
                     item = left.pop(one.property.id)

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from rovercheck.checker.render.story import start_values, value
 from rovercheck.checker.results.trace import Trace, counted_ticks
@@ -158,3 +159,10 @@ def meaning(trace: Trace) -> str:
     size = "minimal and smallest" if found.smallest else "minimal"
     least = f"The set is {size}." if found.minimal else "Not minimised: some may not matter."
     return f"Whatever the other inputs are, {runs} ends like this. {least}"
+
+
+def determined_by(trace: Trace) -> str:
+    """Which inputs determine the end of the run, and what that means; empty where nobody examined that."""
+    told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
+    spans = [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]
+    return f"Determined by {'; '.join(spans)}. {meaning(trace)}" if spans else meaning(trace)

@@ -5,10 +5,11 @@ from functools import lru_cache
 
 from rovercheck.checker.render.drawing import svg
 from rovercheck.checker.render.drawing.emphasis import Emphasis, emphasis
-from rovercheck.checker.render.drawing.labels import arrows, explained
+from rovercheck.checker.render.drawing.folding import shortened
+from rovercheck.checker.render.drawing.labels import action_lines, arrows, explained
 from rovercheck.checker.render.drawing.nested_layout import picture
 from rovercheck.checker.render.drawing.picture import Box, PicturePiece, Spot
-from rovercheck.checker.render.drawing.text import LINE, width, wrap
+from rovercheck.checker.render.drawing.text import LINE, block, width, wrap
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.spec_model.lang.chart import Chart
@@ -21,6 +22,8 @@ FORMAT = Format(
 )
 
 MARGIN = 24
+ACTION = 62
+"""Letters of a line of a list of actions that is unfolded."""
 STYLE = """
 .statechart .state>rect{fill:#fffdf6;stroke:#5b5b66;stroke-width:1.3}
 .statechart .composite>rect{fill:#f7f8fb;stroke:#5b5b66;stroke-width:1.3}
@@ -44,6 +47,12 @@ STYLE = """
 .statechart .fired .head,.statechart .fired .dot{fill:#c3241c}
 .statechart .fired .label,.statechart .fired .number{fill:#a81b14}
 """
+PAGE_STYLE = f"""{STYLE}
+.statechart .folded{{cursor:pointer}}.statechart .folded .action:last-child{{fill:#1f4e9c;font-weight:bold}}
+.statechart .all-actions{{display:none;cursor:pointer}}.statechart .all-actions.open{{display:inline}}
+.statechart .all-actions rect{{fill:#fffef9;stroke:#1f4e9c;stroke-width:1.6}}
+"""
+"""With that of lists of actions that unfold."""
 LEGEND = (
     "dashed box: parallel region, its number the order of execution",
     "number at the start of a transition: its priority",
@@ -63,11 +72,12 @@ def render(chart: Chart, active: Collection[str] = (), fired: Collection[TakenTr
 
 
 def inline(chart: Chart) -> str:
-    """The picture for a page that has ``STYLE`` and says what ``LEGEND`` says.
+    """The picture for a page that has ``PAGE_STYLE`` and says what ``LEGEND`` says.
 
     Its parts are found by attributes, as it has no ids: ``data-state`` is the dotted path of a state,
     ``data-arrow`` the name of a ``ChartArrow`` (on every piece of its line).  The classes ``active``,
-    ``fired`` and ``taken`` emphasise them.
+    ``fired`` and ``taken`` emphasise them.  Of long lists of actions the beginning is drawn; a click on it
+    shows the whole, by the script ``unfold.js`` of pages.
     """
     return _inline(chart)[2]
 
@@ -79,7 +89,7 @@ def size(chart: Chart) -> tuple[int, int]:
 
 @lru_cache(maxsize=64)
 def _inline(chart: Chart) -> tuple[int, int, str]:
-    wide, high, body = _drawn(chart, Emphasis(), legend=())
+    wide, high, body = _drawn(chart, Emphasis(), legend=(), folded=True)
     return wide, high, svg.figure(wide, high, _title(chart), body, class_="statechart", role="img")
 
 
@@ -87,20 +97,36 @@ def _title(chart: Chart) -> str:
     return f"{chart.name}: statechart"
 
 
-def _drawn(chart: Chart, shown: Emphasis, legend: Sequence[str] = LEGEND) -> tuple[int, int, list[str]]:
+def _drawn(
+    chart: Chart, shown: Emphasis, legend: Sequence[str] = LEGEND, folded: bool = False
+) -> tuple[int, int, list[str]]:
     """Width, height and elements."""
     heading = [chart.name, *wrap(chart.text, 110)]
     top = MARGIN + 20 + LINE * (len(heading) - 1) + 10
-    place = picture(chart).moved(MARGIN, top)
+    place = picture(chart, folded).moved(MARGIN, top)
     wide = max(place.width, *(width(t, 17 if not i else 11) for i, t in enumerate(heading)), 420) + 2 * MARGIN
     foot = _foot(chart, wide - 2 * MARGIN, legend)
     body = [svg.text(MARGIN, MARGIN + 14, heading[0], "chart")]
     body += svg.lines(MARGIN, MARGIN + 24, heading[1:], "note")
-    body += [_box(box, shown) for box in place.boxes]
+    long = {box.path: action_lines(chart.states[box.path]) for box in place.boxes} if folded else {}
+    long = {path: lines for path, lines in long.items() if shortened(lines) != lines}
+    body += [_box(box, shown, box.path in long) for box in place.boxes]
     body += [_piece(piece, shown) for piece in place.pieces]
     body += [_spot(spot) for spot in place.spots]
     body += svg.lines(MARGIN, top + place.height + 18, foot, "note")
-    return wide, top + place.height + (18 + LINE * len(foot) if foot else 0) + MARGIN, body
+    high = top + place.height + (18 + LINE * len(foot) if foot else 0) + MARGIN
+    body += [_unfolded(box, long[box.path], wide, high) for box in place.boxes if box.path in long]
+    return wide, high, body
+
+
+def _unfolded(box: Box, actions: Sequence[str], wide: int, high: int) -> str:
+    """All actions of a state over what is below its title, hidden until they are asked for."""
+    lines = tuple(line for action in actions for line in wrap(action, ACTION, "    "))
+    across, down = max(box.width, block(lines)[0] + 24), LINE * len(lines) + 10
+    x, y = max(0, min(box.x, wide - across)), max(0, min(box.y + 22, high - down))
+    frame = svg.tag("rect", x=x, y=y, width=across, height=down, rx=4)
+    parts = "".join([frame, *svg.lines(x + 12, y + 3, lines, "action")])
+    return svg.tag("g", parts, class_="all-actions", data_actions=".".join(box.path))
 
 
 def _foot(chart: Chart, room: int, legend: Sequence[str]) -> list[str]:
@@ -111,7 +137,7 @@ def _foot(chart: Chart, room: int, legend: Sequence[str]) -> list[str]:
     return [*names, *([""] if names and rest else []), *rest]
 
 
-def _box(box: Box, shown: Emphasis) -> str:
+def _box(box: Box, shown: Emphasis, folded: bool = False) -> str:
     kind = "region" if box.order else "composite" if box.composite else "state"
     classes = f"{kind} active" if box.path in shown.states else kind
     radius = 10 if not box.order else 6
@@ -122,8 +148,15 @@ def _box(box: Box, shown: Emphasis) -> str:
     if box.lines:
         y = box.y + 22
         parts.append(svg.tag("line", x1=box.x, x2=box.x + box.width, y1=y, y2=y, class_="rule"))
-        parts += svg.lines(box.x + 12, y + 3, box.lines, "action")
+        lines = svg.lines(box.x + 12, y + 3, box.lines, "action")
+        parts += [_folded(box, lines)] if folded else lines
     return svg.tag("g", "".join(parts), class_=classes, data_state=".".join(box.path))
+
+
+def _folded(box: Box, lines: Sequence[str]) -> str:
+    """The beginning of a long list of actions, which is a button for the whole."""
+    button = {"role": "button", "tabindex": 0, "aria_expanded": "false", "aria_label": "all actions"}
+    return svg.tag("g", "".join(lines), class_="folded", data_actions=".".join(box.path), **button)
 
 
 def _piece(piece: PicturePiece, shown: Emphasis) -> str:

@@ -7,7 +7,7 @@ of ticks without any event is one line, with the first and the last value of eac
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rovercheck.checker.render.durations import duration
 from rovercheck.checker.render.limits import bounds, timer
@@ -125,16 +125,19 @@ def of_model(trace: Trace, name: str) -> bool:
     return name != trace.property.id and not trace.system.variables[name].hidden and not RISING.search(name)
 
 
-def rows(trace: Trace) -> Iterator[Row]:
-    """Events and quiet stretches in order, and the start of a loop; the last tick is always an event."""
+def rows(trace: Trace, ends: frozenset[int] = frozenset()) -> Iterator[Row]:
+    """Events and quiet stretches in order, and the start of a loop; the last tick is always an event.
+
+    A quiet stretch ends after each tick of ``ends``.
+    """
     telling = _Telling(trace)
     at = telling.at
     start: int | None = None
     for i, tick in enumerate(trace.ticks):
+        if start is not None and (i == trace.loop or i in ends):
+            yield telling.quiet(start, i)
+            start = None
         if i == trace.loop:
-            if start is not None:
-                yield telling.quiet(start, i)
-                start = None
             yield Repeats(i + 1, len(trace))
         last = i == len(trace.ticks) - 1
         transitions = tuple(a for a in tick.transitions if not _repeats(a, trace.ticks[i - 1] if i else None))
@@ -190,8 +193,7 @@ class _Telling:
 
     def __init__(self, trace: Trace) -> None:
         self.trace = trace
-        self.at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
-        """The states before the first tick and after each one."""
+        self.at = values_at(trace)
         self._bounds = bounds(trace)
         self._needed = {(one.number, one.name) for one in trace.needed()}
 
@@ -219,12 +221,24 @@ class _Telling:
     def _counted(self, name: str, start: int, end: int) -> StoryChange:
         """A count that went on, with the limit that it has yet to pass; of a timer, as times."""
         old, new = self.at[start][name], self.at[end][name]
-        known = timer(self.trace, name)
-        if known is not None:
-            return StoryChange(name, known.shown(old), known.shown(new), False, known.limit if new else "")
+        shown = counted_on(self.trace, name, old, new)
+        if timer(self.trace, name) is not None:
+            return shown
         ahead = [text for raw, text in self._bounds.get(name, ()) if raw >= new > old]
-        shown = value(self.trace, name, old), value(self.trace, name, new)
-        return StoryChange(name, *shown, name in self.trace.system.inputs, ahead[0] if ahead else "")
+        return replace(shown, limit=ahead[0] if ahead else "")
+
+
+def values_at(trace: Trace) -> list[dict[str, int]]:
+    """All values before the first tick and after each one."""
+    return [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
+
+
+def counted_on(trace: Trace, name: str, old: int, new: int) -> StoryChange:
+    """The change of a count; of a timer, as times and with the limit of its guard."""
+    known = timer(trace, name)
+    if known is not None:
+        return StoryChange(name, known.shown(old), known.shown(new), False, known.limit if new else "")
+    return StoryChange(name, value(trace, name, old), value(trace, name, new), name in trace.system.inputs)
 
 
 def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:

@@ -10,6 +10,7 @@ from io import StringIO
 
 from vcd.gtkw import GTKWColor, GTKWFlag, GTKWSave
 
+from rovercheck.checker.render.trace_vcd import about
 from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
@@ -34,6 +35,8 @@ def render(trace: Trace, dump: str = "") -> str:
     save = GTKWSave(out)
     end = trace.ms(len(trace))
     save.dumpfile(dump or f"{_plain(trace.property.id or trace.system.name)}.vcd", abspath=False)
+    for told in about(trace):
+        save.comment(told)
     save.timestart(0)
     loop = {"a": trace.ms(trace.loop + 1)} if trace.loop is not None else {}
     save.zoom_markers(min(0.0, -math.log2(max(1, end) / _WIDTH)), end, **loop)

@@ -9,6 +9,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from rovercheck.checker.render.reasons import determined_by
 from rovercheck.checker.render.trace_json import shows
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
@@ -55,6 +56,8 @@ def _about(trace: Trace, names: list[str]) -> dict[str, Any]:
         "format-description": "https://apalache-mc.org/docs/adr/015adr-trace.html",
         "source": trace.system.name,
         "description": f"{trace.property.id}: {trace.property.text}" if trace.property.id else "",
+        "because": trace.property.because,
+        "cause": determined_by(trace),
         "tick_ms": trace.system.tick_ms,
         **shows(trace),
         "varTypes": {_written(n): _type(trace, n) for n in names},

@@ -46,6 +46,8 @@ class TraceAbout(Shows):
     system: str
     property: str
     text: str
+    because: str
+    """Why it is violated, or true, as it is written beside the expected verdict; blank if it is not."""
     place: PlaceRow | None
     tick_ms: int
     ticks: Count
@@ -134,7 +136,8 @@ def document(trace: Trace) -> TraceDocument:
     stated = trace.property
     found: TraceDocument = {
         "#meta": {"format": "rovercheck-trace", "version": 3, "system": trace.system.name,
-                  "property": stated.id, "text": stated.text, "place": place_row(stated.place),
+                  "property": stated.id, "text": stated.text, "because": stated.because,
+                  "place": place_row(stated.place),
                   "tick_ms": trace.system.tick_ms, "ticks": len(trace), **shows(trace)},
         "params": [n for n in trace.before if trace.ticks and n not in trace.ticks[0].after],
         "vars": [_variable(n, v, n in trace.system.inputs) for n, v in trace.system.variables.items()],

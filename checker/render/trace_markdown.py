@@ -2,7 +2,7 @@
 
 from xml.sax.saxutils import escape
 
-from rovercheck.checker.render.again import RepeatedTicks, folded
+from rovercheck.checker.render.periods import RepeatedTicks, folded
 from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import (
     OMITTED,
@@ -27,7 +27,9 @@ SPECIAL = str.maketrans({c: f"\\{c}" for c in "\\`*_{}[]<>|#"})
 
 def render(trace: Trace) -> str:
     """The page's part about one run, without a heading of its own."""
-    lines = [_plain(heading(trace)) + ".", ""]
+    because = trace.property.because
+    lines = [f"**Why:** {_plain(because)}", ""] if because else []
+    lines += [_plain(heading(trace)) + ".", ""]
     if chosen := start_values(trace):
         lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
     lines += ["| Tick | ms | Inputs | Changes | Transitions that fired |", "|---:|---:|---|---|---|"]

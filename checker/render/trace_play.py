@@ -4,6 +4,7 @@ from markupsafe import Markup
 
 from rovercheck.checker.render.page import Part, page
 from rovercheck.checker.render.player import part
+from rovercheck.checker.render.trace_html import why
 from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.trace import Trace
 
@@ -24,4 +25,5 @@ def render(trace: Trace, *, everything: bool = False) -> str:
 
 
 def _sentence(trace: Trace) -> Markup:
-    return Markup("<p>{}</p>").format(trace.property.text) if trace.property.text else Markup("")
+    text = Markup("<p>{}</p>").format(trace.property.text) if trace.property.text else Markup()
+    return text + why(trace)

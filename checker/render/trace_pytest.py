@@ -4,6 +4,7 @@ It needs the run as the boards see it (``Trace.concrete``).
 """
 
 from rovercheck.checker.board_tests.pytest_file import pytest_file
+from rovercheck.checker.render.reasons import determined_by
 from rovercheck.checker.render.waves import outcome
 from rovercheck.checker.results.board_test import BoardTest
 from rovercheck.checker.results.format import Format, Need
@@ -38,6 +39,8 @@ def about(trace: Trace) -> list[str]:
     return [
         f"{title}: a run that {'breaks' if broken else 'shows'} it, given to a supervisor.",
         trace.property.text or "A run of the model.",
+        *([f"Why: {trace.property.because}"] if trace.property.because else []),
+        *([said] if (said := determined_by(trace)) else []),
         NOTE + (BROKEN if broken else "."),
     ]
 

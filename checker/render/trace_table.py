@@ -6,8 +6,8 @@ from io import StringIO
 from rich.text import Text
 
 from rovercheck.checker.io.console import UnmarkedConsole
-from rovercheck.checker.render.again import folded
 from rovercheck.checker.render.hanging_indent import hanging
+from rovercheck.checker.render.periods import folded
 from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import (
     OMITTED,
@@ -58,6 +58,8 @@ Part = tuple[Text, Text]
 
 def _parts(trace: Trace) -> Iterator[Part]:
     none = Text()
+    if trace.property.because:
+        yield none, Text(f"Why: {trace.property.because}")
     yield none, Text(heading(trace), style="bold")
     if chosen := start_values(trace):
         yield none, Text("fixed: " + ", ".join(f"{n} = {v}" for n, v in chosen))

@@ -12,6 +12,7 @@ from unicodedata import normalize
 
 from vcd import VCDWriter
 
+from rovercheck.checker.render.reasons import determined_by
 from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
 from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
@@ -50,11 +51,19 @@ def render(trace: Trace) -> str:
 
 
 def _comment(trace: Trace) -> str:
-    """What the dump shows, and the units of its numbers."""
+    """What the dump shows, why it is so, and the units of its numbers."""
     sorts = {wave.full: trace.system.variables[wave.name].sort for wave in waves(trace)}
     units = [f"{name} in {s.unit}" for name, s in sorts.items() if isinstance(s, Num) and str(s.unit)]
+    return "\n".join((*about(trace), *map(_ascii, units)))
+
+
+def about(trace: Trace) -> list[str]:
+    """Lines for a comment: what the run is of, why its property is violated, which inputs determine that."""
     told = [f"rovercheck trace of {trace.system.name}", f"{trace.property.id}: {trace.property.text}"]
-    return "\n".join(_ascii(line) for line in (*(told if trace.property.id else told[:1]), *units))
+    told = told if trace.property.id else told[:1]
+    why = [f"Why: {trace.property.because}"] if trace.property.because else []
+    cause = [said] if (said := determined_by(trace)) else []
+    return [_ascii(line) for line in (*told, *why, *cause)]
 
 
 def _ascii(text: str) -> str:

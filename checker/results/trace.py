@@ -113,7 +113,8 @@ class TracedProperty:
 
     ``relevant`` and ``charts`` name the variables and the charts it depends on.  ``parts`` are all its
     conjuncts, and ``truths`` has for each of them whether it is true after each tick; ``false_parts`` are
-    those that are false after the last (for a witness, none).  ``violated`` tells whether the run breaks it;
+    those that are false after the last (for a witness, none).  ``because`` is why it is so, as it is written
+    beside the expected verdict.  ``violated`` tells whether the run breaks it;
     None for a run of no property, and for one of which only the parts that it makes false are known.
     """
 
@@ -126,6 +127,7 @@ class TracedProperty:
     truths: tuple[tuple[bool, ...], ...] = ()
     violated: bool | None = None
     place: "Place | None" = field(default=None, compare=False, repr=False)
+    because: str = ""
 
 
 NO_PROPERTY = TracedProperty()
@@ -158,6 +160,10 @@ class Trace:
     necessary: NecessaryInputs | None = None
     concrete: tuple["BoardTest", ...] = field(default=(), compare=False, repr=False)
     again: str = field(default="", compare=False, repr=False)
+
+    def with_reason(self, because: str) -> "Trace":
+        """The same run with why its property is violated, or true."""
+        return replace(self, property=replace(self.property, because=because))
 
     def needed(self) -> tuple[Needed, ...]:
         """The inputs that force its end, as far as they were examined."""

@@ -30,6 +30,16 @@ _READ: Mapping[type, tuple[str, ...]] = {
     Enabled: ("by", "components", "name"),
 }
 """What there is of components that are no records."""
+_OURS = (
+    "rovercheck.checker.",
+    "rovercheck.properties.forms",
+    "rovercheck.properties.pasttime",
+    "rovercheck.spec_model.lang.",
+)
+"""The modules of records of which the fields tell all: what these mean is code of ``versions.SOURCES``.
+
+A form of a user's own, with a monitor of its own, means what its code says.
+"""
 
 
 class NoKey(TypeError):
@@ -90,8 +100,14 @@ def _shown(value: object) -> bytes:
     return repr(value).encode()
 
 
+def _whole(value: int) -> bytes:
+    return b"%x" % value  # of any size: decimals have a limit
+
+
 _PLAIN: Mapping[type, Callable[[object], bytes]] = {
-    **dict.fromkeys((type(None), bool, int, float, Fraction, range, bytes), _shown),
+    **dict.fromkeys((type(None), bool, float, range, bytes), _shown),
+    int: _whole,  # type: ignore[dict-item]
+    Fraction: lambda value: b"%x/%x" % value.as_integer_ratio(),  # type: ignore[attr-defined]
     str: _text,  # type: ignore[dict-item]
 }
 
@@ -103,7 +119,7 @@ def _names(kind: type) -> tuple[str, ...] | None:
     """The fields of a record, or of a component, that enter its key; None of anything else."""
     if kind not in _known_names:
         left = _FOR_READERS.get(kind, frozenset())
-        is_record = is_dataclass(kind) and not issubclass(kind, Enum)
+        is_record = is_dataclass(kind) and not issubclass(kind, Enum) and kind.__module__.startswith(_OURS)
         named = (f.name for f in fields(kind) if f.compare and f.name not in left) if is_record else None
         _known_names[kind] = None if named is None else tuple(named)
     return _known_names[kind]

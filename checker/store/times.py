@@ -20,7 +20,7 @@ def known_times() -> dict[str, float]:
     try:
         found = {} if whole is None else json.loads(whole)
         return {str(title): float(seconds) for title, seconds in found.items()}
-    except (ValueError, TypeError, AttributeError):
+    except entries.MEANINGLESS:
         return {}
 
 

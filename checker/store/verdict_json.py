@@ -1,9 +1,7 @@
 """Verdicts as JSON: what they rest on, without the states of a search, and a run as its inputs."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
-
-from typing_extensions import TypedDict
+from typing import Any, Literal, TypedDict
 
 from rovercheck.checker.model.kept_runs import KeptRun, kept, row
 from rovercheck.checker.results.trace import NecessaryInputs, Needed, Trace
@@ -21,6 +19,8 @@ from rovercheck.checker.results.verdict import (
 
 MOST_TICKS = 1_000_000
 """Ticks of a run that is kept."""
+LARGEST = 1 << 63
+"""Of what is counted."""
 
 Definite = Proved | Violated
 """A verdict that is kept: what is unknown is looked for again."""
@@ -93,18 +93,21 @@ def _evidence(found: Mapping[str, Any]) -> Exhausted | Stored:
             "variables": list(names),
             "skipped": skipped,
         }:
+            states, tried, depth = (_count(one, LARGEST) for one in (states, tried, depth))
             return Exhausted(states, tried, depth, tuple(map(str, names)), bool(skipped))
         case {"inductive": int(count), "ticks": int(ticks)}:
-            return StoredInvariant(count, ticks)
+            return StoredInvariant(_count(count, LARGEST), _count(ticks, LARGEST))
         case {"run": dict(one), "ms": int(ms), "loop": loop, "trapped": trapped, "shortest": shortest}:
-            return StoredRun(kept(one, MOST_TICKS).run, ms, _count(loop), _count(trapped), bool(shortest))
+            run = kept(one, MOST_TICKS).run
+            back, stuck = (None if end is None else _count(end, len(run)) for end in (loop, trapped))
+            return StoredRun(run, _count(ms, LARGEST), back, stuck, bool(shortest))
     raise ValueError(f"{str(found)[:60]} is nothing that a verdict rests on")
 
 
-def _count(value: object) -> int | None:
-    if value is None or isinstance(value, int):
+def _count(value: object, most: int) -> int:
+    if isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= most:
         return value
-    raise ValueError(f"{value!r} is no number")
+    raise ValueError(f"{str(value)[:60]} is no number from 0 to {most:,}")
 
 
 def necessary_row(found: NecessaryInputs) -> dict[str, Any]:

@@ -16,11 +16,11 @@ from rovercheck.checker.cache import entries
 from rovercheck.checker.cache.places import STORE
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.results.trace import NecessaryInputs
-from rovercheck.checker.results.verdict import Verdict
+from rovercheck.checker.results.verdict import StoredRun, Verdict, Violated
 from rovercheck.checker.store.content import ContentKeys, NoKey
 from rovercheck.checker.store.verdict_json import Definite, entry, necessary_inputs, necessary_row, verdict
-from rovercheck.checker.store.versions import deciding
-from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.checker.store.versions import as_loaded, deciding
+from rovercheck.properties.forms import Property, Reachable, Unbounded
 from rovercheck.spec_model.lang.system import System
 
 SCHEMA = "rovercheck/stored-verdict/1"
@@ -35,6 +35,15 @@ class StoredVerdict:
     verdict: Definite
     system: str
     together: tuple[str, ...] = ()
+
+    def fits(self, prop: Property, systems: Mapping[str, System]) -> bool:
+        """Whether it can be a verdict on that property: on its system, resting on what its form rests on."""
+        if self.system not in (prop.on, systems[prop.on].concrete) or self.system not in systems:
+            return False
+        if isinstance(prop.form, Unbounded):
+            return True
+        on_run = isinstance(self.verdict, Violated) != isinstance(prop.form, Reachable)
+        return on_run == isinstance(self.verdict.because, StoredRun)
 
 
 @dataclass
@@ -98,12 +107,12 @@ class VerdictStore:
         try:
             found: Any = json.loads(whole)
             return StoredVerdict(verdict(found), str(found["system"]), tuple(map(str, found["together"])))
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        except entries.MEANINGLESS:
             return None
 
     def write(self, name: str | None, found: Verdict, system: str, together: Sequence[str] = ()) -> None:
         """Keep a verdict, if it is one and not too large."""
-        if name is None or not isinstance(found, Definite):
+        if name is None or not isinstance(found, Definite) or not as_loaded():
             return
         whole = json.dumps(entry(found, system, together), separators=(",", ":")).encode()
         if len(whole) <= _LARGEST:
@@ -114,7 +123,7 @@ class VerdictStore:
         whole = None if name is None or self.recheck else entries.read(name, code=False)
         try:
             return None if whole is None else necessary_inputs(json.loads(whole))
-        except (ValueError, KeyError, TypeError, AttributeError):
+        except entries.MEANINGLESS:
             return None
 
     def write_necessary(self, name: str | None, found: NecessaryInputs) -> None:

@@ -3,6 +3,7 @@
 A verdict is kept for the code that found it.  Charts and properties are no part of it: they are the question.
 """
 
+import os
 import platform
 import sys
 from functools import cache
@@ -46,12 +47,31 @@ def deciding() -> str:
     """The key.  Raises ``OSError`` without the sources, and where one has changed since it was loaded."""
     digest = sha256()
     for path in sources():
-        if path.stat().st_mtime > _LOADED:
+        if _changed(str(path)):
             raise ChangedMeanwhile(f"{path} has changed since it was loaded.")
         digest.update(f"{path.relative_to(_ROOT).as_posix()}\0".encode())
         digest.update(sha256(path.read_bytes()).digest())
     digest.update(repr((sys.version, platform.machine(), sys.platform, installed())).encode())
     return digest.hexdigest()
+
+
+def as_loaded() -> bool:
+    """Whether no source has changed up to now: processes that were started meanwhile may have loaded it."""
+    try:
+        return not any(map(_changed, _paths(_ROOT)))
+    except OSError:
+        return False
+
+
+def _changed(path: str) -> bool:
+    status = os.stat(path)
+    return max(status.st_mtime, status.st_ctime) > _LOADED  # also what was put there with an older date
+
+
+@cache
+def _paths(root: Path) -> tuple[str, ...]:
+    assert root == _ROOT, "the sources are those below the root"
+    return tuple(map(str, sources()))
 
 
 def sources() -> list[Path]:

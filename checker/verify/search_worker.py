@@ -176,9 +176,12 @@ class SearchWorker:
             return PropertyDecided(id, one.verdict, one.system)
         before = self._expected.get(id)
         if before is not None and {before.verdict.word, one.verdict.word} == {"proved", "violated"}:
+            for name in (stored.store.question(one.property, self._systems), stored.slices[id]):
+                stored.store.remove(name)
             raise StoreContradiction(
                 f"{id} is kept as {before.verdict.word}, and decided anew it is {one.verdict.word}. Do not "
-                "rely on either; please report it with the command. With --no-store nothing kept is used."
+                "rely on either; please report it with the command. What was kept is removed, and with "
+                "--no-store nothing kept is used."
             )
         together = tuple(p.id for p in task.properties)
         return PropertyDecided(id, one.verdict, one.system, stored.slices[id], together)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused
 from rovercheck.checker.cache.places import VARIABLE, chosen
-from rovercheck.checker.certify.outcome import Undecided
+from rovercheck.checker.certify.outcome import Rejected, Undecided
 from rovercheck.checker.engines import AUTO, Engine, Limits, Stage
 from rovercheck.checker.model.kept_invariants import Invariants
 from rovercheck.checker.process.faults import Fault, report
@@ -121,7 +121,9 @@ def stored(
         if prop.on not in systems:
             return  # which is said where it is asked
         kept = search.store.read(search.store.question(prop, systems))
-        if kept is not None and not (search.traces and isinstance(kept.verdict.because, StoredRun)):
+        if kept is None or not kept.fits(prop, systems):
+            continue
+        if not (search.traces and isinstance(kept.verdict.because, StoredRun)):
             yield prop.id, Result(prop, kept.verdict, kept.system)
 
 
@@ -148,13 +150,15 @@ def searches(
     waiting = certifying is not None and certifying.again
     returns = [_Returns(task, waiting, limits.seconds) for task in todo]
     asked = {prop.id: one for one in returns for prop in one.task.properties}
-    keep = _Keeping(search.store, systems)
     gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
+    keep = _Keeping(search.store, systems, gates)
     warned: set[str] = set()
     with closing(pool.run(orders, lambda number: returns[number].again())) as events:
         try:
             for event in events:
                 back = returns[event.number]
+                if event.failure and not event.done:  # code that crashed may have said what is not so
+                    keep.forget(back.task.properties, back.kept)
                 for one in _passed(gates, back.task.system.name, back.on_event(event)):
                     if isinstance(one, MachineWarning) and one.text in warned:
                         continue
@@ -162,7 +166,9 @@ def searches(
                         warned.add(one.text)
                     if isinstance(one, Result):
                         keep(one, *asked[one.property.id].kept.get(one.property.id, (None, ())))
+                        keep.flush()
                     yield one
+                keep.flush()
         except BaseException as error:
             if not isinstance(error, GeneratorExit | ModelError):  # nothing that is said of the model
                 yield from (one for gate in gates.values() for one in gate.held)
@@ -180,17 +186,42 @@ def _passed(
             yield one
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Keeping:
-    """Keeps what was decided, once nothing can take it back."""
+    """Keeps what was decided, once nothing can take it back.
+
+    Nothing at all of a system that leaves a domain, nor a proof whose certificate was rejected.
+    """
 
     store: "VerdictStore | None"
     systems: Mapping[str, System]
+    gates: Mapping[str, "_Gate"]
+    _waiting: list[tuple[Result, str | None, Sequence[str]]] = field(default_factory=list)
 
     def __call__(self, one: Result, slice: str | None, together: Sequence[str]) -> None:
+        if self.store is not None and not isinstance(one.certificate, Rejected):
+            self._waiting.append((one, slice, together))
+
+    def flush(self) -> None:
+        """Write what need not wait any longer."""
+        waiting, self._waiting = self._waiting, []
+        for one, slice, together in waiting:
+            if not all(self.gates[name].open for name in (one.property.on, one.system) if name in self.gates):
+                self._waiting.append((one, slice, together))
+            elif self.store is not None:
+                for name in (self.store.question(one.property, self.systems), slice):
+                    self.store.write(name, one.verdict, one.system, together)
+
+    def forget(
+        self, properties: Sequence[Property], known: Mapping[str, tuple[str | None, tuple[str, ...]]]
+    ) -> None:
+        """Keep nothing of what was said of some properties."""
+        ids = {p.id for p in properties}
+        self._waiting = [row for row in self._waiting if row[0].property.id not in ids]
         if self.store is not None:
-            for name in (self.store.question(one.property, self.systems), slice):
-                self.store.write(name, one.verdict, one.system, together)
+            for prop in (p for p in properties if p.id in known):
+                self.store.remove(self.store.question(prop, self.systems))
+                self.store.remove(known[prop.id][0])
 
 
 class _Gate:
@@ -200,6 +231,11 @@ class _Gate:
         self.held: list[Result] = []
         self._left = searches
         self._open = False
+
+    @property
+    def open(self) -> bool:
+        """Whether no search can find any more that the system leaves a domain."""
+        return self._open or not self._left
 
     def passed(self, events: Iterable[TaskEvent | StaysInDomains]) -> Iterator[TaskEvent]:
         """What may go on of what is events, and what is no longer held back after it."""

@@ -12,7 +12,7 @@ from rovercheck.checker.certify.record import rests_on_answers
 from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.extras import CERTIFICATES
-from rovercheck.checker.results.verdict import StoredRun, Unknown, Violated
+from rovercheck.checker.results.verdict import Run, StoredRun, Unknown
 from rovercheck.checker.store.verdict_json import Definite
 from rovercheck.checker.store.verdicts import StoredVerdict, VerdictStore
 from rovercheck.checker.system.initial import require_initial_tick
@@ -21,10 +21,11 @@ from rovercheck.checker.verify.decide import decide
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
 from rovercheck.checker.verify.tasks import Task
-from rovercheck.properties.forms import Property, Reachable, Unbounded
+from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 SECONDS = 60
 """For each certificate that is checked once more: what takes longer is decided anew."""
@@ -56,7 +57,8 @@ class StoredTask:
         """The verdict that is kept, its run replayed; what cannot be replayed is kept no longer."""
         for name in (self.store.question(prop, self.systems), self.slices[prop.id]):
             found = self.store.read(name)
-            verdict = None if found is None else replayed(found, prop, self.systems)
+            fits = found is not None and found.fits(prop, self.systems)
+            verdict = replayed(found, prop, self.systems) if found is not None and fits else None
             if found is not None and verdict is not None:
                 return replace(found, verdict=verdict)
             if found is not None:
@@ -120,15 +122,29 @@ def replayed(kept: StoredVerdict, prop: Property, systems: Mapping[str, System])
     """
     because = kept.verdict.because
     if not isinstance(because, StoredRun):
-        return None if _rests_on_run(kept, prop) else kept.verdict
-    if isinstance(prop.form, Unbounded) or kept.system not in systems or not _rests_on_run(kept, prop):
+        return kept.verdict
+    if isinstance(prop.form, Unbounded) or kept.system not in systems:
         return None
-    question = reduce(lowered(systems[kept.system]), [replace(prop, on=kept.system)])
     try:
-        trace = replay(question.system, question.goals[0], because.run)
+        question = reduce(lowered(systems[kept.system]), [replace(prop, on=kept.system)])
+        trace = replay(question.system, question.goals[0], _fitted(because.run, question.system))
     except (ReplayError, ModelError, KeyError):
         return None
     return replace(kept.verdict, because=replace(trace, shortest=because.shortest))
+
+
+def _fitted(run: Run, system: TransitionSystem) -> Run:
+    """The run with a value for each input and frozen variable of a system, and for no other.
+
+    What lies beside the slice may have changed: a value that is missing, or is none any more, is the initial
+    one.
+    """
+
+    def values(variables: Sequence[Var], given: Mapping[str, int]) -> dict[str, int]:
+        return {v.name: raw if (raw := given.get(v.name, v.init)) in v.domain else v.init for v in variables}
+
+    inputs = tuple(values(system.inputs, given) for given in run.inputs)
+    return Run(values(system.frozen, run.frozen), inputs)
 
 
 def again(result: Result, systems: Mapping[str, System]) -> Result:
@@ -137,8 +153,3 @@ def again(result: Result, systems: Mapping[str, System]) -> Result:
         return result
     verdict = replayed(StoredVerdict(result.verdict, result.system), result.property, systems)
     return result if verdict is None else replace(result, verdict=verdict)
-
-
-def _rests_on_run(kept: StoredVerdict, prop: Property) -> bool:
-    """Whether such a verdict on such a property rests on a run: a counterexample, or a witness."""
-    return isinstance(kept.verdict, Violated) != isinstance(prop.form, Reachable)

@@ -7,6 +7,7 @@ import textwrap
 import tomllib
 from collections.abc import Iterator
 from dataclasses import replace
+from operator import attrgetter
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -15,7 +16,9 @@ from rovercheck.spec_model.lang.expr import Const, Expr, Var
 from rovercheck.spec_model.lang.label import text
 
 TABLE: dict[str, Any] = tomllib.loads(Path(__file__).with_name("examples.toml").read_text(encoding="utf-8"))
-MODULES = ("domain", "expr", "words", "time", "action", "chart", "system", "edit")
+MODULES = (
+    "domain", "expr", "words", "time", "action", "chart", "transition", "array", "function", "system", "edit",
+)  # fmt: skip
 HEAD = """# Chart language
 
 A chart is a Python file in the words below. Each word stands with its text in the source, and an example;
@@ -30,6 +33,7 @@ PRELUDE = """from dataclasses import replace
 
 Mode = enumeration("Mode", ["SLOW", "FAST"])
 mode = var("mode", Mode)
+minutes = var("minutes", integer(0, 9, "min"))
 level = var("level", integer(0, 100, "%"))
 previous_level = var("previous_level", integer(0, 100, "%"))
 angle = var("angle", integer(-180, 180))
@@ -73,7 +77,7 @@ def _section(section: dict[str, Any], scope: dict[str, Any]) -> Iterator[str]:
     home = "rovercheck" if section["module"] != "edit" else "rovercheck.spec_model.lang.edit"
     yield f"From `{home}`. {section['about']}\n"
     for name, entry in section["words"].items():
-        word = getattr(module(section["module"]), name)
+        word = attrgetter(name)(module(section["module"]))
         yield f"### {name}\n"
         yield fenced(signature(name, word)) if callable(word) else ""
         yield said(word, entry) + "\n"
@@ -89,7 +93,7 @@ def signature(name: str, word: Any) -> str:
         arguments = ast.unparse(maker.args).split(", ", 1)[1] if maker else _fields(tree)
     else:
         assert isinstance(tree, ast.FunctionDef)
-        arguments = ast.unparse(tree.args)
+        arguments = ast.unparse(tree.args).removeprefix("self").removeprefix(", ")
     short = f"{name}({arguments})"
     return short if len(short) <= 90 else f"{name}(\n    {_by_lines(arguments)},\n)"
 

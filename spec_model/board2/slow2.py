@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.array import array
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.errors import ModelError
@@ -64,17 +65,13 @@ def exact_ms(step: Expr) -> Record:
 
 
 def _ten(source: SourceSignals, most: int, pending: Var, note: Block) -> Slow2:
-    last = [
-        var(f"{source.name}_gap{i}", pending.domain, doc=f"gap {i}, latest first", hidden=True)
-        for i in range(1, 11)
-    ]
+    last = array(
+        f"{source.name}_gap", range(1, GAPS + 1), pending.domain, doc="gap {key}, latest first", hidden=True
+    )
     gaps, one_more = _count(source)
-    total: Expr = last[0]
-    for gap in last[1:]:
-        total = total + gap
-    shift = [assign(older, newer) for newer, older in zip(reversed(last[:-1]), reversed(last), strict=False)]
-    answer = assign(source.deg, enough(gaps) & (total > gaps * Const(most, pending.sort)))
-    return Slow2(note, _question(source, pending, [*shift, assign(last[0], pending), one_more, answer]))
+    slow = last.sum() > gaps * Const(most, pending.sort)
+    answer = assign(source.deg, enough(gaps) & slow)
+    return Slow2(note, _question(source, pending, [*last.push(pending), one_more, answer]))
 
 
 def runs(source: SourceSignals) -> Slow2:

@@ -1,7 +1,7 @@
 """Actions: assignments, conditionals and directed sends of local events."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Union
 
 from rovercheck.spec_model.lang.domain import Bool, Num, show
@@ -31,8 +31,10 @@ class If:
     otherwise: tuple["Action", ...] = ()
 
     def __str__(self) -> str:
-        shown = f"if {text(self.condition)} {{{'; '.join(map(str, self.then))}}}"
-        return shown + (f" else {{{'; '.join(map(str, self.otherwise))}}}" if self.otherwise else "")
+        shown = f"if {text(self.condition)} {{{'; '.join(map(str, as_calls(self.then)))}}}"
+        if not self.otherwise:
+            return shown
+        return f"{shown} else {{{'; '.join(map(str, as_calls(self.otherwise)))}}}"
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,59 @@ def when(condition: Expr, then: Sequence[Action], otherwise: Sequence[Action] = 
 def send(event: str, receiver: str) -> Send:
     """A directed send of a local event to a state of the same chart, by name."""
     return Send(event, receiver)
+
+
+@dataclass(frozen=True, eq=False)
+class ActionCall:
+    """Actions that a chart shows as one, under the name of what does them."""
+
+    name: str
+    actions: tuple[Action, ...]
+
+    def __str__(self) -> str:
+        return self.name
+
+
+_CALL = "call"
+"""Where an action keeps the call that it is part of: nobody but printers reads it."""
+
+
+def shared_actions(name: str, actions: Sequence[Action]) -> tuple[Action, ...]:
+    """Actions that several places of a chart share, which it shows as ``name``, such as ``reset(timer)``.
+
+    They do what they do without the name; where only some of them are left, they are shown one by one.
+    """
+    made = tuple(replace(action) for action in several(f"shared_actions({name!r}, ...)", "actions", actions))
+    call = ActionCall(name, made)
+    for number, action in enumerate(made):
+        action.__dict__[_CALL] = call, number
+    return made
+
+
+def call_of(action: Action) -> ActionCall | None:
+    """The shared actions that an action is part of."""
+    call: ActionCall | None = action.__dict__.get(_CALL, (None, 0))[0]
+    return call
+
+
+def kept(old: Action, new: Action) -> Action:
+    """What a change has made of an action: still part of what is shared, if a chart shows it as before."""
+    if _CALL in old.__dict__ and str(new) == str(old):
+        new.__dict__[_CALL] = old.__dict__[_CALL]
+    return new
+
+
+def as_calls(actions: Sequence[Action]) -> tuple["Action | ActionCall", ...]:
+    """The actions as they are shown: what is shared, and is there as a whole, under its name."""
+    shown, at = list[Action | ActionCall](), 0
+    while at < len(actions):
+        call = call_of(actions[at])
+        count = len(call.actions) if call else 1
+        part = [action.__dict__.get(_CALL) for action in actions[at : at + count]]
+        whole = call is not None and part == [(call, number) for number in range(count)]
+        shown.append(call if call and whole else actions[at])
+        at += count if whole else 1
+    return tuple(shown)
 
 
 def each_action(actions: Sequence[Action]) -> Iterator[Action]:

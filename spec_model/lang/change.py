@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeVar, cast
 
-from rovercheck.spec_model.lang.action import Action, Assign, If, assign, expressions
+from rovercheck.spec_model.lang.action import Action, Assign, If, assign, expressions, kept
 from rovercheck.spec_model.lang.chart import Block, Chart, State, Transition
 from rovercheck.spec_model.lang.edit import (
     begin,
@@ -237,7 +237,7 @@ def assigned(var: Var, change: Callable[[Expr], Operand]) -> Callable[[Part], Pa
                 case Assign(Var(name), value) if name == var.name:
                     return assign(var, change(value))
                 case If(condition, inside, outside):
-                    return If(condition, tuple(map(action, inside)), tuple(map(action, outside)))
+                    return kept(old, If(condition, tuple(map(action, inside)), tuple(map(action, outside))))
             return old
 
         if var.name not in part.written:

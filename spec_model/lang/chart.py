@@ -6,7 +6,7 @@ first; a transition ends on a state or on a junction, whose own transitions are 
 A ``Block`` is a function block: actions run once in every step, with no states.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -15,7 +15,14 @@ from rovercheck.spec_model.lang.domain import Domain, Enum, enumeration
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean, several
 from rovercheck.spec_model.lang.expr import Const, Expr, Var, any_of
 from rovercheck.spec_model.lang.place import Place, here
+from rovercheck.spec_model.lang.stateflow.message import LabelText, label_text
+from rovercheck.spec_model.lang.transition import Default, Junction, Transition, default_of, to
 from rovercheck.spec_model.lang.walk import variables
+
+__all__ = [
+    "NOWHERE", "Block", "Chart", "Component", "Default", "Enabled", "Junction", "Path", "State", "Transition",
+    "parts", "to",
+]  # fmt: skip
 
 Path = tuple[str, ...]
 """Names from the chart's outermost level down to a state; the chart itself is the empty path."""
@@ -28,76 +35,13 @@ NOWHERE = "-"
 
 
 @dataclass(frozen=True)
-class Transition:
-    """One segment of a transition: ``event [guard] {condition action} / transition action -> target``.
-
-    ``place`` is where it is written.
-    """
-
-    target: str
-    guard: Expr | None = None
-    event: str | None = None
-    do: tuple[Action, ...] = ()
-    then: tuple[Action, ...] = ()
-    place: Place | None = field(default=None, compare=False, repr=False)
-
-
-def to(
-    target: str,
-    when: Expr | None = None,
-    on: str | None = None,
-    do: Sequence[Action] = (),
-    then: Sequence[Action] = (),
-) -> Transition:
-    """A transition to a state or junction, by name.
-
-    ``when`` is the guard, ``on`` the local event, ``do`` the condition action (run as soon as the
-    segment is found valid) and ``then`` the transition action (run only on a complete path).
-    """
-    of = f"the transition to {target!r}"
-    return Transition(target, when, on, several(of, "do", do), several(of, "then", then), here())
-
-
-@dataclass(frozen=True)
-class Junction:
-    """A connective junction; its transitions are tested in order (rule G7)."""
-
-    name: str
-    transitions: tuple[Transition, ...]
-
-    def __init__(self, name: str, transitions: Sequence[Transition]) -> None:
-        object.__setattr__(self, "name", name)
-        object.__setattr__(self, "transitions", several(f"Junction {name!r}", "transitions", transitions))
-
-
-Default = tuple[Transition, ...]
-
-
-def _default(
-    of: str, default: "str | Transition | Sequence[Transition] | None", place: Place | None
-) -> Default:
-    match default:
-        case None:
-            return ()
-        case str(name):
-            return (Transition(name, place=place),)
-        case Transition():
-            return (default,)
-        case Iterable():
-            return several(of, "default", default)
-        case _:
-            raise ModelError(
-                f"{of}: default={brief(default)}; write the name of a state, or a transition to one."
-            )
-
-
-@dataclass(frozen=True)
 class State:
     """A state and what is inside it.
 
     ``default`` is the default transition of an exclusive composite: a state's name, a transition, or
-    several transitions in priority order.  Junctions belong to the composite they are drawn in.  ``place`` is
-    where it is written, unless given the line that makes it.
+    several transitions in priority order.  Junctions belong to the composite they are drawn in.  ``label`` is
+    a text with the actions, ``"entry: x = 1; exit: x = 0"``, until a chart reads it.  ``place`` is where it
+    is written, unless given the line that makes it.
     """
 
     name: str
@@ -109,11 +53,13 @@ class State:
     junctions: tuple[Junction, ...]
     default: Default
     parallel: bool
+    label: LabelText | None
     place: Place | None = field(compare=False, repr=False)
 
     def __init__(
         self,
         name: str,
+        label: str | LabelText | None = None,
         *,
         entry: Sequence[Action] = (),
         during: Sequence[Action] = (),
@@ -130,9 +76,23 @@ class State:
         lists: dict[str, Sequence[object]] = dict(
             entry=entry, during=during, exit=exit, states=states, transitions=transitions, junctions=junctions
         )
-        fields = dict(name=name, default=_default(of, default, place), parallel=parallel, place=place)
+        fields = dict(name=name, default=default_of(of, default, place), parallel=parallel, place=place)
+        fields["label"] = label_text(label) if isinstance(label, str) else label
         for attribute, value in (*fields.items(), *((n, several(of, n, v)) for n, v in lists.items())):
             object.__setattr__(self, attribute, value)
+        if label is not None and (self.entry or self.during or self.exit):
+            raise ModelError(
+                f"{of} has a text and entry=, during= or exit= beside it; write all in the text."
+            )
+        segments = [*self.default, *self.transitions, *(t for j in self.junctions for t in j.transitions)]
+        texts = any(isinstance(s, Transition) and s.label is not None for s in segments)
+        inside = any(isinstance(s, State) and s.labelled for s in self.states)
+        self.__dict__["_labelled"] = texts or inside or label is not None
+
+    @property
+    def labelled(self) -> bool:
+        """Whether something in it is a text that no chart has read."""
+        return bool(self.__dict__["_labelled"])
 
     def walk(self, path: Path = ()) -> Iterator[tuple[Path, "State"]]:
         """This state and every state below it, with paths, parents first, in execution order.
@@ -155,7 +115,9 @@ class Chart:
     and for the guards of other charts; a name that several states have is written ``"Cabin.Open"``.
     ``text`` says in one line what it does and where it comes from.  ``local_to`` lists data whose
     value means something only while one of the named states is active: on leaving them it returns
-    to its initial value (Stateflow: data scoped to a state).
+    to its initial value (Stateflow: data scoped to a state).  ``data`` are what labels written as text may
+    name beside what the formulas of the chart use: variables, named formulas, arrays, functions, charts,
+    enumerations.
     """
 
     def __init__(
@@ -168,6 +130,7 @@ class Chart:
         parallel: bool = False,
         text: str = "",
         local_to: Sequence[tuple[Var, Sequence[str]]] = (),
+        data: Sequence[object] = (),
         place: Place | None = None,
     ) -> None:
         self.name = name
@@ -176,6 +139,17 @@ class Chart:
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place
         )
+        self.data, self.label_faults = several(f"Chart {name!r}", "data", data), tuple[str, ...]()
+        if self.root.labelled or self.data:
+            from rovercheck.spec_model.lang.stateflow.chart import with_labels_read  # which reads charts
+
+            self.root, self.label_faults = with_labels_read(self)
+            self.__dict__ = {name: self.__dict__[name] for name in self._written}
+
+    _written = ("name", "text", "local_to", "root", "data", "label_faults")
+
+    def __getstate__(self) -> dict[str, object]:
+        return self.__dict__ | {"data": ()}  # functions stay where they are written
 
     def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         """The chart with other data that mean something only in some states."""
@@ -188,7 +162,7 @@ class Chart:
     def _with(self, level: State, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         return Chart(
             self.name, level.states, default=level.default, junctions=level.junctions,
-            parallel=level.parallel, text=self.text, local_to=local_to, place=level.place,
+            parallel=level.parallel, text=self.text, local_to=local_to, data=self.data, place=level.place,
         )  # fmt: skip
 
     @property

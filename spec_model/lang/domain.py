@@ -6,6 +6,7 @@ an enumeration, value / resolution for a number.  Arithmetic on raw values is ex
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import Context, Decimal
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
@@ -144,7 +145,16 @@ def show(value: Fraction) -> str:
     for prime in (2, 5):
         while rest % prime == 0:
             rest //= prime
-    return f"{float(value):.10g}" if rest == 1 else str(value)
+    if rest > 1:
+        return str(value)
+    short = f"{float(value):.10g}"
+    return short if Fraction(short) == value else f"{_decimal(value):f}"
+
+
+def _decimal(value: Fraction) -> Decimal:
+    """A fraction that has a decimal, whole."""
+    digits = len(str(value.numerator)) + len(str(value.denominator)) * 4
+    return Context(prec=digits).divide(Decimal(value.numerator), Decimal(value.denominator))
 
 
 def common_resolution(a: Fraction, b: Fraction) -> Fraction:

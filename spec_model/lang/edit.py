@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from rovercheck.spec_model.lang.action import Action, Assign, If, assign
+from rovercheck.spec_model.lang.action import Action, Assign, If, assign, kept
 from rovercheck.spec_model.lang.chart import (
     Block,
     Chart,
@@ -232,10 +232,11 @@ def _acts(actions: tuple[Action, ...], change: Callable[[Expr], Expr]) -> tuple[
         if isinstance(action, Assign):
             value = change(action.value)
             same = value.sort == action.value.sort
-            out.append(Assign(action.var, value) if same else assign(action.var, value))
+            new = Assign(action.var, value) if same else assign(action.var, value)
+            out.append(kept(action, new))
         elif isinstance(action, If):
             then, otherwise = _acts(action.then, change), _acts(action.otherwise, change)
-            out.append(If(change(action.condition), then, otherwise))
+            out.append(kept(action, If(change(action.condition), then, otherwise)))
         else:
             out.append(action)
     return tuple(out)

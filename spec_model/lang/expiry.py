@@ -14,7 +14,7 @@ run of the free one; ``tests/lang/test_expiry.py`` does that on random charts.
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.action import Action, Assign, If, kept
 from rovercheck.spec_model.lang.chart import Chart, Component, Enabled, Junction, Path, State, Transition
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, When, any_of, flag
@@ -248,9 +248,9 @@ def _actions(actions: Sequence[Action], change: Change) -> tuple[Action, ...]:
 def _action(action: Action, change: Change) -> Action:
     match action:
         case Assign(var, value):
-            return Assign(var, change(value))
+            return kept(action, Assign(var, change(value)))
         case If(condition, then, otherwise):
-            return If(change(condition), _actions(then, change), _actions(otherwise, change))
+            return kept(action, If(change(condition), _actions(then, change), _actions(otherwise, change)))
         case _:
             return action
 

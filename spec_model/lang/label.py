@@ -1,7 +1,7 @@
 """Print expressions and actions the way Stateflow writes them on a transition."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
@@ -25,13 +25,15 @@ def beside(operand: object, sign: str, right: bool = False) -> str:
 def _show(expr: Expr, above: int) -> str:
     match expr:
         case Const(value, sort):
-            return constant(value, sort)
+            shown = constant(value, sort)
+            return f"({shown})" if above > 5 and isinstance(sort, Num) and "/" in shown else shown
         case Var(name):
             return name
         case Named(name):
             return name if above < 3 or _ATOM.fullmatch(name) else f"({name})"
-        case Temporal():
-            return _temporal(expr)
+        case Temporal(when):
+            shown = _temporal(expr)
+            return f"({shown})" if when is When.DURATION and above >= 3 else shown
         case Apply(op, args, _):
             return OPERATIONS[op](args, above)
     raise AssertionError(expr.__class__)
@@ -52,11 +54,17 @@ Row = Callable[[Sequence[Expr], int], str]
 """Shows an operator with its arguments, in parentheses where the level around it, ``above``, asks for it."""
 
 
-def _between(level: int, sign: str, alike: bool = False) -> Row:
-    """A sign between the arguments; ``alike``: however they are grouped, the value is the same."""
+def _between(level: int, sign: str, alike: Collection[Op] = ()) -> Row:
+    """A sign between the arguments; ``alike``: however such arguments are grouped, the value is the same."""
+
+    def inner(arg: Expr, first: bool) -> int:
+        while isinstance(arg, Apply) and arg.op is Op.SCALE:
+            arg = arg.args[0]
+        grouped = arg.op in alike if isinstance(arg, Apply) else bool(alike)
+        return level if first or grouped else level + 1
 
     def row(args: Sequence[Expr], above: int) -> str:
-        shown = sign.join(_show(a, level + (at > 0 and not alike)) for at, a in enumerate(args))
+        shown = sign.join(_show(a, inner(a, at == 0)) for at, a in enumerate(args))
         return f"({shown})" if above > level or (above == level == 3) else shown
 
     return row
@@ -77,12 +85,12 @@ def _choice(args: Sequence[Expr], above: int) -> str:
 
 OPERATIONS: Mapping[Op, Row] = {
     Op.ITE: _choice,
-    Op.OR: _between(1, " || ", alike=True),
-    Op.AND: _between(2, " && ", alike=True),
+    Op.OR: _between(1, " || ", tuple(Op)),
+    Op.AND: _between(2, " && ", tuple(Op)),
     **{op: _between(3, f" {op} ") for op in COMPARISONS},
-    Op.ADD: _between(4, " + ", alike=True),
+    Op.ADD: _between(4, " + ", tuple(Op)),
     Op.SUB: _between(4, " - "),
-    Op.MUL: _between(5, "*", alike=True),
+    Op.MUL: _between(5, "*", (Op.MUL,)),
     Op.DIV: _between(5, " div "),
     Op.MOD: _between(5, " mod "),
     Op.NOT: _before("!"),

@@ -11,7 +11,7 @@ from difflib import SequenceMatcher
 from operator import is_
 from typing import TypeVar
 
-from rovercheck.spec_model.lang.action import Action, Assign, If, Send, when
+from rovercheck.spec_model.lang.action import Action, Assign, If, Send, kept, when
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, all_of, any_of, ite
@@ -85,9 +85,10 @@ class Merge:
     def _action(self, changed: Action, drawn: Action) -> Action:
         match changed, drawn:
             case Assign(_, new), Assign(var, old):
-                return Assign(var, self.formula(new, old))
+                return kept(drawn, Assign(var, self.formula(new, old)))
             case If(new, then, other), If(old, inside, outside):
-                return If(self.formula(new, old), self.actions(then, inside), self.actions(other, outside))
+                branches = self.actions(then, inside), self.actions(other, outside)
+                return kept(drawn, If(self.formula(new, old), *branches))
         return drawn
 
     def arrows(self, changed: Sequence[Transition], drawn: Sequence[Transition]) -> tuple[Transition, ...]:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar
 
-from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.action import Action, Assign, If, kept
 from rovercheck.spec_model.lang.chart import (
     Block,
     Chart,
@@ -85,13 +85,13 @@ class Specialiser:
     def _action(self, action: Action) -> tuple[Action, ...]:
         match action:
             case Assign(var, value):
-                return (Assign(var, self.expr(value)),)
+                return (kept(action, Assign(var, self.expr(value))),)
             case If(condition, then, otherwise):
                 test = self.expr(condition)
                 if isinstance(test, Const) and test is not condition:
                     return self.actions(then if test.value else otherwise)
                 branches = self.actions(then), self.actions(otherwise)
-                return (If(test, *branches),) if any(branches) else ()
+                return (kept(action, If(test, *branches)),) if any(branches) else ()
         return (action,)
 
     def transitions(self, transitions: Sequence[Transition]) -> tuple[Transition, ...]:

@@ -9,20 +9,30 @@ from rovercheck.checker.render import timeline, trace_html
 from rovercheck.checker.render.page import page as whole
 from tests import traces
 from tests.browser.conftest import Show
+from tests.render.test_periods import silent
 from tests.render.test_timeline import drawn
 
 NOW = ".tl-now"
 
 
-def value(page: Page, lane: str) -> str:
-    """What the table says of a lane."""
-    rows = page.locator(".tl-table tr:not(:has(.tl-same))")
-    told = rows.evaluate_all("rows => rows.map(row => [...row.cells].map(cell => cell.textContent))")
-    return str(dict(told)[lane])
+def names(page: Page) -> list[str]:
+    """The lanes that are seen, from top to bottom."""
+    told = page.locator(".tl-lane:visible .tl-name").all_text_contents()
+    return [name.replace("●", "").strip() for name in told]
+
+
+def value(page: Page, lane: str, cursor: int = 0) -> str:
+    """What stands beside the name of a lane."""
+    cells = page.locator(".tl-lane").evaluate_all(
+        "all => all.map(one => [...one.children].map(cell => cell.textContent.replace('●', '').trim()))"
+    )
+    return str({name: told for name, *told in cells}[lane][cursor])
 
 
 def changed(page: Page) -> list[str]:
-    return page.locator(".tl-table tr.tl-new th").all_inner_texts()
+    return [
+        told.replace("● ", "") for told in page.locator(".tl-lane:has(.tl-new) .tl-name").all_inner_texts()
+    ]
 
 
 @pytest.fixture
@@ -33,7 +43,7 @@ def opened(show: Show) -> Page:
 def test_opens_at_the_end(opened: Page) -> None:
     assert opened.locator(NOW).inner_text().split() == ["tick", "153", "3060", "ms"]
     assert value(opened, "mode") == "CRITICAL"
-    assert opened.locator(".tl-cursor").is_visible()
+    assert opened.locator(".tl-plot .tl-cursor").is_visible()
 
 
 def test_keys_move_the_cursor(opened: Page) -> None:
@@ -64,6 +74,7 @@ def test_counts_are_told_in_between(opened: Page) -> None:
 def test_the_mouse_shows_and_a_click_holds(opened: Page) -> None:
     box = opened.locator(".tl-plot").bounding_box()
     assert box is not None
+    box["y"] -= 40
     opened.mouse.move(box["x"] + 2, box["y"] + 70)
     assert opened.locator(NOW).inner_text().startswith("tick 1\n")
     opened.mouse.click(box["x"] + 2, box["y"] + 70)
@@ -78,26 +89,33 @@ def test_two_timelines_on_a_page_are_apart(show: Show) -> None:
     assert first.startswith("tick 153\n") and second.startswith("tick 1\n")
 
 
-def test_a_phone_scrolls_the_lanes_and_not_the_page(opened: Page) -> None:
+def test_a_phone_sees_the_whole_run_and_scrolls_the_lanes_and_not_the_page(opened: Page) -> None:
     opened.set_viewport_size({"width": 390, "height": 844})
-    wide, frame = opened.evaluate(
-        "[document.documentElement.scrollWidth, document.querySelector('.tl-frame').scrollWidth]"
-    )
-    assert wide == 390 and frame > 600
+    seen = "[document.documentElement.scrollWidth, frame.scrollWidth - frame.clientWidth, frame.scrollLeft]"
+    frame = "(() => { const frame = document.querySelector('.tl-frame'); return " + seen + "; })()"
+    until(opened, f"{frame}[1] === 0")
+    assert opened.evaluate(frame)[0] == 390, "it fits"
+    for _ in range(6):
+        opened.locator(".tl-in").click()
     opened.locator(".tl-first").click()
-    names = opened.locator(".tl-names").bounding_box()
+    places = [opened.locator(one).bounding_box() for one in (".tl-names", ".tl-cell >> nth=0")]
     opened.locator(".tl-last").click()
-    assert opened.locator(".tl-frame").evaluate("frame => frame.scrollLeft") > 100
-    assert opened.locator(".tl-names").bounding_box() == names, "the names stay"
+    wide, more, left = opened.evaluate(frame)
+    assert wide == 390 and more > 100 and left > 100
+    assert [opened.locator(one).bounding_box() for one in (".tl-names", ".tl-cell >> nth=0")] == places, (
+        "names and values stay"
+    )
 
 
 def test_print_has_all_and_no_controls(opened: Page) -> None:
     opened.emulate_media(media="print")
     opened.set_viewport_size({"width": 1045, "height": 740})
-    assert not opened.locator(".tl-side").is_visible()
+    assert not opened.locator(".tl-tools").is_visible() and not opened.locator(".tl-overview").is_visible()
+    opened.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     plot = opened.locator(".tl-plot").bounding_box()
     assert plot is not None and plot["x"] + plot["width"] <= 1045
     assert opened.locator(".told-table").is_visible()
+    opened.evaluate("window.dispatchEvent(new Event('afterprint'))")
 
 
 def test_what_never_changes_is_printed_too(show: Show) -> None:
@@ -128,10 +146,10 @@ CONTRAST = """() => {
     });
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
+  const bands = [...document.querySelectorAll(".tl-plot rect[class^=tl-is-]")];
+  const over = (label) => bands.findLast((one) => one.compareDocumentPosition(label) & 4);
   return [...document.querySelectorAll(".tl-label")].map((label) => {
-    const band = label.previousElementSibling.matches("rect") ? label.previousElementSibling
-      : label.previousElementSibling.previousElementSibling;
-    const [a, b] = [label, band].map((element) => light(getComputedStyle(element).fill));
+    const [a, b] = [label, over(label)].map((element) => light(getComputedStyle(element).fill));
     return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
   });
 }"""
@@ -144,3 +162,204 @@ def test_thousands_of_ticks_stay_usable(show: Show) -> None:
     page.keyboard.press("ArrowLeft")
     assert page.locator(NOW).inner_text().startswith("tick 5002\n")
     assert value(page, "Relay.Theirs.duration1") == "100 s"
+
+
+# --- zoom, overview, signals, a second cursor ------------------------------------------------------
+
+
+def edges(page: Page) -> tuple[float, float, float]:
+    """How wide the lanes are, and which part of them is seen."""
+    wide, left, room = page.evaluate(
+        """() => {
+          const frame = document.querySelector(".tl-frame"), names = document.querySelector(".tl-names");
+          const plot = document.querySelector(".tl-plot").getBoundingClientRect();
+          return [plot.width, frame.scrollLeft, frame.clientWidth - names.offsetWidth];
+        }"""
+    )
+    return wide, left, room
+
+
+def until(page: Page, condition: str) -> None:
+    """Waits for what comes with the next frame; a page allows no text to be run as a function in it."""
+    for _ in range(200):
+        if page.evaluate(condition):
+            return
+        page.wait_for_timeout(20)
+    raise AssertionError(condition)
+
+
+def test_it_fits_and_zooms_around_the_cursor(opened: Page) -> None:
+    wide, _, room = edges(opened)
+    assert 0.9 * room < wide <= room
+    opened.locator(".tl-frame").focus()
+    opened.keyboard.press("Home")
+    for _ in range(4):
+        opened.keyboard.press("+")
+    zoomed, left, _ = edges(opened)
+    assert zoomed > 1.5 * wide and left < 200, "the cursor is still seen"
+    opened.keyboard.press("0")
+    assert edges(opened)[0] == wide
+    opened.locator(".tl-out").click()
+    assert edges(opened)[0] == wide, "never less than the whole run"
+
+
+def test_the_wheel_with_ctrl_zooms_what_is_under_the_pointer(opened: Page) -> None:
+    box = opened.locator(".tl-plot").bounding_box()
+    assert box is not None
+    x, y = box["x"] + 0.1 * box["width"], box["y"] + 30
+    opened.mouse.move(x, y)
+    before = opened.locator(NOW).inner_text()
+    opened.keyboard.down("Control")
+    for _ in range(3):
+        opened.mouse.wheel(0, -200)
+    opened.keyboard.up("Control")
+    until(opened, "document.querySelector('.tl-plot').getBoundingClientRect().width > 1500")
+    opened.mouse.move(x + 1, y)
+    assert opened.locator(NOW).inner_text() == before
+    assert opened.evaluate("visualViewport.scale") == 1
+
+
+def test_two_fingers_zoom_the_lanes_and_not_the_page(browser: Browser, show: Show, page: Page) -> None:
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    phone = context.new_page()
+    show(trace_html.render(drawn()))
+    phone.goto(page.url)
+    wide = edges(phone)[0]
+    box = phone.locator(".tl-frame").bounding_box()
+    assert box is not None
+    touch = context.new_cdp_session(phone)
+    x, y = box["x"] + 260, box["y"] + 120
+
+    def fingers(kind: str, *places: float) -> None:
+        points = [{"x": x + dx, "y": y} for dx in places]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    fingers("touchStart", -20, 20)
+    for apart in (30, 45, 60, 80):
+        fingers("touchMove", -apart, apart)
+    fingers("touchEnd")
+    assert edges(phone)[0] > 2 * wide
+    assert phone.evaluate("[visualViewport.scale, document.documentElement.scrollWidth]") == [1, 390]
+    context.close()
+
+
+def test_the_overview_shows_the_part_that_is_seen_and_moves_it(opened: Page) -> None:
+    def window() -> tuple[float, float]:
+        box = opened.locator(".tl-window").bounding_box()
+        assert box is not None
+        return box["x"], box["width"]
+
+    strip = opened.locator(".tl-overview").bounding_box()
+    assert strip is not None and window()[1] > 0.98 * strip["width"]
+    opened.locator(".tl-first").click()
+    for _ in range(4):
+        opened.locator(".tl-in").click()
+    opened.mouse.click(strip["x"] + 1, strip["y"] + 10)
+    until(opened, "document.querySelector('.tl-frame').scrollLeft < 300")
+    left = window()
+    assert left[1] < strip["width"]
+    opened.mouse.click(strip["x"] + 0.99 * strip["width"], strip["y"] + 10)
+    until(opened, "document.querySelector('.tl-frame').scrollLeft > 600")
+    until(opened, f"document.querySelector('.tl-window').getBoundingClientRect().x > {left[0]}")
+
+
+def test_signals_are_chosen_by_name(opened: Page) -> None:
+    all_of_them = names(opened)
+    opened.locator(".tl-choice summary").click()
+    opened.locator(".tl-list li input").first.uncheck()
+    assert names(opened) == all_of_them[1:]
+    opened.locator(".tl-filter").fill("RELAY")
+    assert opened.locator(".tl-list li:visible").count() == 2
+    opened.locator(".tl-none").click()
+    assert names(opened) == [n for n in all_of_them[1:] if "Relay" not in n]
+    opened.locator(".tl-filter").fill("")
+    opened.locator(".tl-every").click()
+    assert names(opened) == all_of_them
+    assert opened.locator(".tl-chosen").inner_text() == f"{len(all_of_them)} of {len(all_of_them)}"
+    opened.locator(".tl-none").click()
+    assert names(opened) == [] and opened.locator(".tl-head:visible").count() == 0
+
+
+def test_two_cursors_tell_what_lies_between_them(opened: Page) -> None:
+    opened.locator(".tl-frame").focus()
+    opened.keyboard.press("Home")
+    for _ in range(12):
+        opened.keyboard.press("ArrowRight")
+    opened.keyboard.press("b")
+    opened.keyboard.press("End")
+    told = opened.locator(".tl-difference")
+    assert told.inner_text() == "B tick 13, 260 ms; A − B = 140 ticks, 2800 ms"
+    assert value(opened, "Relay.Theirs.duration1", 1) == "220 ms"
+    assert value(opened, "mode") == "CRITICAL"
+    opened.keyboard.press("Escape")
+    assert told.inner_text() == "" and value(opened, "mode", 1) == ""
+    box = opened.locator(".tl-plot").bounding_box()
+    assert box is not None
+    opened.mouse.click(box["x"] + 3, box["y"] + 30)
+    opened.keyboard.down("Shift")
+    opened.mouse.click(box["x"] + box["width"] - 3, box["y"] + 30)
+    opened.keyboard.up("Shift")
+    assert told.inner_text() == "B tick 153, 3060 ms; A − B = -152 ticks, -3040 ms"
+
+
+# --- repeated periods ------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def silence(show: Show) -> Page:
+    return show(trace_html.render(silent(3003)))
+
+
+def test_a_repeated_period_is_a_box_that_opens_by_a_click(silence: Page) -> None:
+    wide, _, room = edges(silence)
+    assert wide <= room, "3,003 ticks fit"
+    words = silence.locator(".tl-axis").text_content() or ""
+    assert "× 56" in words and "67–2978" in words and "1320–59560" in words
+    silence.locator(".tl-plot .tl-fold").click()
+    assert silence.locator(".tl-fold-button").get_attribute("aria-expanded") == "true"
+    assert edges(silence)[0] > 5_000
+    assert silence.locator(".tl-plot rect").count() < 300, "only what is seen is drawn"
+    silence.locator(".tl-axis .tl-handle").first.click()
+    assert edges(silence)[0] == wide
+    silence.locator(".tl-fold-button").click()
+    assert edges(silence)[0] > 5_000
+
+
+def test_every_value_within_a_box_is_known(silence: Page) -> None:
+    silence.locator(".tl-frame").focus()
+    silence.keyboard.press("End")
+    for _ in range(40):
+        silence.keyboard.press("ArrowLeft")
+    assert silence.locator(NOW).inner_text() == "tick 2963\n59260 ms"
+    count = silent(3003).ticks[2962].after["Monitors_2.IMU.CRIT.duration1"]
+    assert value(silence, "Monitors_2.IMU.CRIT.duration1") == f"{20 * count} ms"
+
+
+def test_the_table_shows_by_a_click_what_is_repeated(silence: Page) -> None:
+    inside = silence.locator(".told-inside tr")
+    assert inside.count() == 56 * 3 and not inside.first.is_visible()
+    silence.locator(".told-more").click()
+    assert inside.first.is_visible() and inside.last.is_visible()
+    silence.locator(".told-more").click()
+    assert not inside.first.is_visible()
+
+
+# --- beside the charts -----------------------------------------------------------------------------
+
+
+def test_lanes_and_charts_are_side_by_side_on_one_screen(silence: Page) -> None:
+    lanes, charts = (silence.locator(one).bounding_box() for one in (".tl-frame", ".player-charts"))
+    assert lanes is not None and charts is not None
+    assert lanes["x"] + lanes["width"] <= charts["x"] and charts["x"] + charts["width"] <= 1280
+    assert max(box["y"] + box["height"] for box in (lanes, charts)) <= 900
+    assert silence.evaluate("document.documentElement.scrollWidth") == 1280
+
+
+def test_without_scripts_the_picture_is_there(browser: Browser, show: Show, page: Page) -> None:
+    show(trace_html.render(drawn()))
+    context = browser.new_context(java_script_enabled=False)
+    plain = context.new_page()
+    plain.goto(page.url)
+    assert plain.locator("noscript svg").get_by_text("false here").is_visible()
+    assert not plain.locator(".tl-tools").is_visible()
+    context.close()

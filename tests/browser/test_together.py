@@ -32,7 +32,7 @@ def test_the_player_follows_the_cursor_and_the_cursor_the_player(opened: Page) -
     assert where(opened).startswith("Tick 10 of 10")
     opened.locator(".player-first").click()
     assert now(opened) == "before the first tick"
-    assert set(opened.locator(".tl-table td").all_inner_texts()) == {""}
+    assert set(opened.locator(".tl-cell").all_inner_texts()) == {""}
     opened.locator(".tl-back").click()
     assert now(opened) == "tick 1 20 ms" and where(opened).startswith("Tick 1 of")
 

@@ -163,3 +163,32 @@ def shown(capsys: pytest.CaptureFixture[str]) -> dict[str, Any]:
     [found] = [f for f in json.loads(capsys.readouterr().out)["findings"] if f["name"] == "cache"]
     assert isinstance(found, dict)
     return found
+
+
+@pytest.mark.parametrize(
+    ("variables", "said"),
+    [
+        ({}, "2 entries, 0.0 MiB"),
+        ({"ROVERCHECK_STORE": ""}, "none: $ROVERCHECK_STORE is empty"),
+        ({"ROVERCHECK_CACHE": ""}, "none: there is no cache"),
+    ],
+)
+def test_whether_verdicts_are_kept_and_how_many(
+    variables: Mapping[str, str],
+    said: str,
+    untried: None,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv(cache.VARIABLE, str(tmp_path / "cache"))
+    monkeypatch.setenv(cache.SECRET, str(tmp_path / "secret"))
+    monkeypatch.delenv("ROVERCHECK_STORE", raising=False)
+    for name in ("a-verdict-json", "b-verdict-json", "c-search-quick"):
+        cache.write(name, b"{}")
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    assert run(["doctor", "--json"]) is Exit.AS_EXPECTED
+    rows = json.loads(capsys.readouterr().out)["findings"]
+    [found] = [row for row in rows if row["name"] == "verdicts kept"]
+    assert found["ok"] and found["found"] == said

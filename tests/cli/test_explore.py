@@ -207,3 +207,55 @@ def test_at_a_terminal_it_ends_when_told_to() -> None:
         terminal.tell(signal.SIGTERM)
         assert terminal.ended() == Exit.INTERRUPTED
         assert terminal.seen.endswith("tick 0, 0 ms> \r\n"), "what follows begins a line"
+
+
+def test_next_lists_what_can_come_and_takes_it(told) -> None:
+    code, seen, _ = told("step", "next", "next 1 2", "next all", "next 9", on="relay_links")
+    assert code is Exit.USAGE
+    first = seen.partition("> next\n")[2].partition("tick 1,")[0]
+    assert "   1 Monitor_heartbeat: Sup_OK → Sup_DEG\n       [heartbeat_slow]\n" in first
+    assert "       by heartbeat_slow = true\n" in first
+    assert "2 steps more that keep every state: next all" in first
+    taken = seen.partition("> next 1 2\n")[2].partition("tick 2,")[0]
+    assert "▸ Monitor_heartbeat: Sup_OK → Sup_DEG" in taken and "▸ Monitor_reception: Rx_OK → Rx_DEG" in taken
+    assert "Sup_DEG → Sup_DEG" in seen.partition("> next all\n")[2]
+    assert max(map(len, seen.splitlines())) <= 80
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (("next 99",), "There is no next step 99; write next 1 to next"),
+        (("step", "next one"), "There is no next step one"),
+        (("step", "next 1 3"), "No inputs lead to Monitor_heartbeat: Sup_OK → Sup_DEG and"),
+        (("reach",), "Write a condition."),
+        (("reach nowhere",), "There is no variable or state 'nowhere'"),
+    ],
+)
+def test_what_cannot_come_is_refused(told, lines: tuple[str, ...], said: str) -> None:
+    code, _, err = told(*lines, on="relay_links")
+    assert code is Exit.USAGE and said in " ".join(err.split())
+
+
+def test_reach_runs_to_a_condition_or_says_that_there_is_no_run(told) -> None:
+    never = "reach Relay.B1_actuating and heartbeat_age > 200"
+    code, seen, _ = told("reach Relay.B2_actuating", "step", never, on="relay_links")
+    assert code is Exit.AS_EXPECTED
+    seen = " ".join(seen.split())
+    assert "Reached in 7 ticks by a run that explicit found; none is shorter." in seen
+    assert "Never, from here: all" in seen and "reachable states (explicit)." in seen
+
+
+def test_reach_at_a_terminal_can_be_interrupted_and_the_session_goes_on() -> None:
+    with Terminal([*COMMAND, "rover"], lines=60) as terminal:
+        terminal.until("tick 0, 0 ms> ")
+        terminal.type("next\r")
+        terminal.until("next 1 2 takes what two of them do together.")
+        terminal.until("tick 0, 0 ms> ")
+        terminal.type("reach Relay.B2_actuating\r")
+        terminal.until("lowering rover")
+        terminal.interrupt("Interrupted; quit or Ctrl-D ends.")
+        terminal.type("step\r")
+        terminal.until("tick 1, 20 ms> ")
+        terminal.type("quit\r")
+        assert terminal.ended() == 0

@@ -9,14 +9,16 @@ import pytest
 
 from rovercheck.checker.cli import app, run
 from rovercheck.checker.commands.check import findings
-from rovercheck.checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
+from rovercheck.checker.commands.check.findings import SHOWN, Guide, listed, program, read_on, totals
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.text_wrap import plain
 from rovercheck.checker.commands.shared.told import ToldVerdict, told
 from rovercheck.checker.model.rover import rover
+from rovercheck.checker.results.gravity import gravest_first
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, Reachable, always, reachable
@@ -45,15 +47,20 @@ def run_of(ticks: int) -> Trace:
 
 
 BY_SIZE = {"toy": rover().systems["relay"], "whole": rover().systems["rover"]}
+ORDER = FindingOrder({}, ["R-1", "R-2"], BY_SIZE)
 
 
 def on(prop: Property, verdict: Verdict, in_part: bool = False) -> ToldVerdict:
-    return told(CheckedProperty(Result(prop, verdict, "toy", in_part), Expected(verdict.word)), BY_SIZE)
+    return told(CheckedProperty(Result(prop, verdict, "toy", in_part), Expected(verdict.word)), ORDER)
 
 
 def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> ToldVerdict:
     result = Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system)
-    return told(CheckedProperty(result, Expected("violated")), BY_SIZE)
+    return told(CheckedProperty(result, Expected("violated")), ORDER)
+
+
+def violated(found: Sequence[ToldVerdict]) -> list[ToldVerdict]:
+    return [one for one in found if one.word == "violated"]
 
 
 def ids(found: Sequence[ToldVerdict]) -> list[str]:
@@ -91,12 +98,14 @@ def test_the_gravest_finding_of_each_requirement_comes_first() -> None:
         on(demand("D-6", "R-1"), ALL),
         broken("D-7", "R-2", "R-1", ticks=10),
     ]
-    assert ids(gravest(found, ["R-1", "R-2"])) == ["D-4", "D-2", "D-5", "D-3", "D-1", "D-7", "S-1"]
+    assert ids(gravest_first(violated(found), lambda one: one.gravity)) == [
+        "D-4", "D-2", "D-5", "D-3", "D-1", "D-7", "S-1",
+    ]  # fmt: skip
 
 
 def test_no_finding_is_left_out_without_a_word() -> None:
     found = [broken(f"D-{n}", f"R-{n}") for n in range(SHOWN + 3)]
-    guide = Guide(gravest=[f"R-{n}" for n in range(SHOWN + 3)], causes="causes.md")
+    guide = Guide(causes="causes.md")
     blank, head, *lines = read_on([*found, REACHED], guide)
     assert blank == "" and head.endswith(f"({SHOWN} of {SHOWN + 3}):")
     assert lines[:SHOWN] == [f"  D-{n}, toy: D-{n} is kept." for n in range(SHOWN)]

@@ -22,11 +22,14 @@ CROSSCHECKS = Instead(
 COVERS = Instead("searches for minutes; tests/cli/test_generate_tests.py runs the command on small charts")
 MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
+REVISIONS = Instead("decides all of two revisions; tests/cli/test_diff.py compares those of small models")
+SERVES = Instead("goes on until it is ended; tests/cli/test_serve.py and tests/browser look at it")
 PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
 
 FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
 
 CHECKED = "rovercheck check --model heater.py"
+ACCEPTS = 'rovercheck accept HEAT-3 --model heater.py --because "The valve comes." --owner "A. Rossi"'
 
 COMMANDS = {
     "mkdir tank": INSTALLS,
@@ -41,6 +44,9 @@ COMMANDS = {
     "make test": MAKES,
     "make test-full": MAKES,
     "make check-full": MAKES,
+    f"{ACCEPTS} --until 2027-03-31": Instead(
+        "the day will be over; tests/cli/test_accept.py names one that is not", ACCEPTS
+    ),
     "rovercheck compare": CROSSCHECKS,
     "rovercheck compare --system board1 --impl python:mine.py:Board1": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
@@ -48,6 +54,7 @@ COMMANDS = {
     "rovercheck compare --system board1 --impl c:FOLDER": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
+    "rovercheck serve --model heater.py": SERVES,
     "rovercheck doctor": Instead("tests/cli/test_doctor.py puts its questions to every engine"),
     "rovercheck generate-tests": COVERS,
     "rovercheck generate-tests --system board1 --cover transitions --cover pairs": COVERS,
@@ -75,6 +82,11 @@ COMMANDS = {
     "rovercheck simulate SCENARIO.toml --log logs": Instead("the line with -o writes the log, too"),
     "rovercheck simulate SCENARIO.toml --no-plot": Instead("any scenario; the first line is run so"),
     "rovercheck simulate examples/scenarios/link_loss.toml": Instead("the line below it runs this scenario"),
+    "rovercheck check --model heater.py --watch": Instead(
+        "goes on for ever; tests/cli/test_watch.py ends it"
+    ),
+    "rovercheck check --changed": REVISIONS,
+    "rovercheck diff HEAD": REVISIONS,
     "rovercheck report --output review.html": Instead(
         "decides everything; the line with --full below it is run for one property"
     ),
@@ -122,6 +134,9 @@ COMMANDS = {
     r"printf 'step 3\nwhy\n' | rovercheck explore Relay": Instead(
         "a pipe of the shell", "rovercheck explore Relay --script session.txt"
     ),
+    r"printf 'step\nnext\nnext 1 2\nreach Relay.B2_actuating\n' | rovercheck explore relay_links": Instead(
+        "a pipe of the shell; tests/cli/test_explore.py gives these commands"
+    ),
     "cc -std=c99 pb1_15.c your_supervisor.c -lm": Instead(
         "needs a supervisor; tests/render compiles such a file with one"
     ),
@@ -142,6 +157,7 @@ COMMANDS = {
 
 BEFORE = {
     "docs/ci.md": ["rovercheck init heater", "cd heater"],
+    "docs/findings.md": ["rovercheck init heater", "cd heater"],
 }
 """What a page takes for granted, done before its first command."""
 
@@ -154,9 +170,16 @@ GIVEN = {
 MADE = "made by the search that the page speaks of, which takes minutes"
 SHOWN = {
     (
+        "docs/labels.md",
+        "wrong.py:10:61: Oven, transition 1 of Off: `dor_open` is unknown here. Did you mean 'door_open'?",
+    ): "tests/model_files/test_statements.py compares what is told",
+    (
         "docs/certificates.md",
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
+    ("docs/findings.md", '{"schema": "rovercheck/decisions/1",'): (
+        "tests/cli/test_accept.py reads decisions that are valid under the schema"
+    ),
     ("docs/generate-tests.md", "board1"): MADE,
     ("docs/installation.md", "docker build -t rovercheck ."): (
         "needs Docker; tests/packaging/test_containers.py builds what the Dockerfile does, without it"

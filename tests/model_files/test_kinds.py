@@ -78,9 +78,9 @@ WRONG = {
         chart('State("A", transitions=[to("A", when=previous(3))])'),
         "the transition to 'A': the condition is 3, a number; write a formula",
     ),
-    "a text for a guard": (
+    "a label that is a name alone": (
         chart('State("A", transitions=[to("A", when="hot")])'),
-        "the transition to 'A': when is 'hot', a text; write a formula",
+        "C: transition 1 of A waits for the event hot, which is never sent to A.",
     ),
     "a text for a transition": (
         chart('State("A", transitions=["B"])'),
@@ -109,9 +109,9 @@ WRONG = {
         "System 'S': tick_ms is 2.5, a number; write a whole number.",
     ),
     "one note": (system('oven, notes="n"'), "S: notes='n' is one text; write notes=['n']."),
-    "about a chart in a system": (
-        f"{system('oven')}\n{always()}",
-        "P-1 is about 'Oven', no system of this model. It is a chart of S: write on='S'.",
+    "about a chart in two systems": (
+        f'{system("oven")}\nT = in_order("T", oven)\n{always()}',
+        "P-1 is about 'Oven', no system of this model. It is a chart of S, T: write on='S'.",
     ),
     "another unit under one name": (
         f"{COUNTS}\n" + always('var("minutes", integer(0, 600, "s")) < 600', "S"),

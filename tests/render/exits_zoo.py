@@ -51,11 +51,12 @@ def odd() -> Trace:
 
 @cache
 def huge(ticks: int = 5_000) -> Trace:
-    """Something happens in every tick."""
+    """Something happens in every tick, and never three times in a row: levels by the Thue-Morse sequence."""
     at = {"Relay": 1}
     transition = TakenTransition("Relay", "Ours", "Theirs", "[level >= 100]", 1)
     made = tuple(
-        Tick(k, {"level": 100 * (k % 2)}, {"Relay": 1 + k % 2}, (transition,)) for k in range(1, ticks + 1)
+        Tick(k, {"level": 100 * (k.bit_count() % 2)}, {"Relay": 1 + k.bit_count() % 2}, (transition,))
+        for k in range(1, ticks + 1)
     )
     table = {n: v for n, v in zoo.TRACES["long"].system.variables.items() if n in ("Relay", "level")}
     return told(trace_of("huge", 20, table, ("level",), at, made, (flag("never"),)))

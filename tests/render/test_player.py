@@ -186,7 +186,7 @@ def test_players_share_pictures_and_scripts() -> None:
     tags = Reader(document).tags
     assert [a["data-picture"] for t, a in tags if t == "template"] == [player.key(lamp), player.key(relay)]
     assert sum(tag == "svg" for tag, _ in tags) == 2
-    assert sum(tag == "script" and "type" not in a for tag, a in tags) == 1
+    assert sum(tag == "script" and "type" not in a for tag, a in tags) == 4
 
 
 @pytest.mark.parametrize("chart", {**CHARTS, **charts_of(systems())}.values(), ids=lambda c: c.name)

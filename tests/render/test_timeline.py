@@ -11,11 +11,13 @@ import pytest
 
 from rovercheck.checker.render import trace_html, trace_svg
 from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.periods import RepeatedTicks
 from rovercheck.checker.render.timeline import story_part, timeline
 from rovercheck.checker.render.timeline.axis import fit, labelled
 from rovercheck.checker.render.timeline.drawing import place
 from rovercheck.checker.render.timeline.limits import thresholds, time_limits
 from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, NeededTicks, Timeline
+from rovercheck.checker.render.timeline.runs import outside
 from rovercheck.checker.render.timeline.shapes import fitting
 from rovercheck.checker.render.timeline.tones import tone
 from rovercheck.checker.results.trace import Needed, Tick, Trace
@@ -201,8 +203,32 @@ class TestAxis:
         assert all(axis.middle(b) - axis.middle(a) > 12 for a, b in pairwise(ticks))
 
     def test_events_without_pause_make_the_picture_wider(self) -> None:
-        axis = fit(timeline(counted([0, 1, 5] * 300, 5)))
+        unlike = [5 * (k.bit_count() % 2) for k in range(900)]
+        axis = fit(timeline(counted(unlike, 5)))
         assert axis.breaks == () and axis.width == 2700
+
+    def test_ticks_that_repeat_others_are_a_box_with_their_numbers_and_times(self) -> None:
+        trace = counted([0, *[0] * 5, *([9, 5, 0] * 1000)], 9)
+        shown = timeline(trace)
+        axis = fit(shown)
+        [fold] = axis.folds
+        assert (fold.period, fold.times) == (3, 998) and axis.width <= 961
+        words = [e.text for e in ET.fromstring(trace_svg.render(trace)).iter(f"{SVG}text")]
+        assert {"× 998 more", f"{fold.first}–{fold.last}", f"{fold.ms[0]}–{fold.ms[1]}"} <= {*words}
+        assert "ticks 7–9 again" in words
+        assert len(ET.fromstring(trace_svg.render(trace)).findall(f".//{SVG}path")) < 60
+
+    @pytest.mark.parametrize("cut", [(2, 5), (1, 6), (3, 3), (5, 9)])
+    def test_what_lies_in_a_box_is_not_drawn_and_the_rest_as_before(self, cut: tuple[int, int]) -> None:
+        whole = lane(timeline(counted([0, 2, 4, 6, 8, 10, 3, 3, 7, 7])), "n")
+        fold = RepeatedTicks(*cut, 1, cut[1] - cut[0] + 1, (0, 0))
+        left = {
+            tick: run.low + (run.high - run.low) * Fraction(tick - run.first, max(1, run.last - run.first))
+            for run in outside(whole, [fold]).runs
+            for tick in range(run.first, run.last + 1)
+        }
+        kept = [tick for tick in range(1, 11) if not cut[0] <= tick <= cut[1]]
+        assert left == {tick: [0, 2, 4, 6, 8, 10, 3, 3, 7, 7][tick - 1] for tick in kept}
 
 
 def test_lanes_do_not_overlap() -> None:

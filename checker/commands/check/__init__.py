@@ -79,7 +79,8 @@ class CheckOptions:
 @click.option(
     "--strict",
     is_flag=True,
-    help="Treat as errors: proofs that are or may be vacuous, and proofs that kill no known mutant.",
+    help="Treat as errors: proofs that are or may be vacuous, proofs that kill no known mutant, and findings "
+    "whose acceptance has expired.",
 )
 @click.option("--no-premises", is_flag=True, help="Do not check whether the premises of proofs occur.")
 @click.option(
@@ -177,6 +178,7 @@ def check(
         from rovercheck.checker.commands.check.run import check as run
         from rovercheck.checker.commands.check.text import brief
         from rovercheck.checker.commands.shared.variant import askable
+        from rovercheck.checker.verify.finding_order import order_of
 
         variant = charts.variant()
         properties = selection.properties(variant)
@@ -195,7 +197,8 @@ def check(
         if variant.name:
             properties = askable(variant, properties)
         settings = _settings(search, options, variant)
-        guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
+        order = order_of(variant.model, variant.systems())
+        guide = Guide(variant.options, selection.again, causes(variant))
         deliver = _delivering(options, variant)
         further = _further(options, variant, settings, chains)
         return run(
@@ -208,6 +211,7 @@ def check(
                 further,
                 options.strict,
                 _keeping(kept, variant),
+                order,
             ),
             CheckOutput(
                 options.as_json, options.quiet, guide, brief(len(properties), options.verbose), deliver
@@ -241,8 +245,7 @@ def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
     if charts != VariantOptions() or search.no_store or os.environ.get(STORE) == "":
         return None
     if (
-        options.recheck
-        or options.changed
+        options.changed
         or options.no_premises
         or options.certify
         or options.certificates
@@ -251,7 +254,11 @@ def _kept(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
         return None
     from rovercheck.checker.commands.check.unchanged import ToldStore
 
-    return ToldStore.now(search)
+    kept = ToldStore.now(search)
+    if kept is not None and options.recheck:
+        kept.forget()  # it is told anew by the next check, of what holds now
+        return None
+    return kept
 
 
 def _unchanged(kept: "ToldStore", selection: SelectionOptions, options: CheckOptions) -> Exit | None:
@@ -270,7 +277,7 @@ def _unchanged(kept: "ToldStore", selection: SelectionOptions, options: CheckOpt
     text = CheckText(
         options.as_json,
         options.quiet,
-        Guide("", selection.again, model.order, causes_of_rover()),
+        Guide("", selection.again, causes_of_rover()),
         brief(len(told), options.verbose),
     )
     for one in told:
@@ -290,7 +297,7 @@ def _keeping(kept: "ToldStore | None", variant: "Variant") -> "Callable[[Sequenc
     def keep(found: "Sequence[ToldVerdict]") -> None:
         properties = {id: ToldProperty(p.on, p.costly) for id, p in variant.properties().items()}
         told = {one.id: replace(one, strict=False) for one in found if keepable(one)}
-        kept.add(ToldModel(properties, list(variant.systems()), variant.model.by_gravity, told))
+        kept.add(ToldModel(properties, list(variant.systems()), told))
 
     return keep
 
@@ -330,9 +337,10 @@ def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":
     if not (options.junit or options.sarif or options.annotations):
         return undelivered
     from rovercheck.checker.commands.check.ci import Reports
+    from rovercheck.checker.verify.finding_order import order_of
 
     reports = Reports(
-        variant.systems(),
+        order_of(variant.model, variant.systems()),
         options.junit,
         options.sarif,
         options.annotations or "",

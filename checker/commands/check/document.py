@@ -1,13 +1,14 @@
 """Verdicts as JSON, as ``rovercheck check --json`` prints them (``checker/schemas/check-1.json``)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.told import ToldVerdict, Word, worst
+from rovercheck.checker.commands.shared.told import DecisionRow, Severity, ToldVerdict, Word, worst
 from rovercheck.checker.io.document import Count, Text
+from rovercheck.checker.results.gravity import gravest_first
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import ChainStatus
@@ -58,6 +59,18 @@ class VerdictRow(TypedDict):
     are kept."""
     because: str
     """The reason on record for an expected violation."""
+    effect: str
+    """What goes wrong where it is violated, as far as that is on record."""
+    hazard: str
+    """The hazard of breaking it, by id; empty if none is known."""
+    severity: Severity
+    """How bad that would be."""
+    place: Count | None
+    """The place of what is violated, from 1 for the gravest; null for what is not violated."""
+    since: str | None
+    """The day on which the violation became known, such as 2026-03-01, if it is on record."""
+    decision: DecisionRow | None
+    """What was decided about a violation that is on record; null for what is expected to be proved."""
 
 
 class CheckDocument(TypedDict):
@@ -86,6 +99,8 @@ def document(
 
     ``faulty``: an engine failed, which is an internal error whatever the others found.
     """
+    broken = gravest_first([one for one in found if one.word == "violated"], lambda one: one.gravity)
+    places = {one.id: place for place, one in enumerate(broken, 1)}
     return {
         "schema": "rovercheck/check/1",
         "variant": found[0].variant if found else "",
@@ -100,11 +115,11 @@ def document(
             }
             for one in chains
         ],
-        "results": [_row(c) for c in sorted(found, key=lambda c: c.id)],
+        "results": [_row(c, places) for c in sorted(found, key=lambda c: c.id)],
     }
 
 
-def _row(one: ToldVerdict) -> VerdictRow:
+def _row(one: ToldVerdict, places: Mapping[str, int]) -> VerdictRow:
     return {
         "id": one.id,
         "text": one.text,
@@ -121,6 +136,12 @@ def _row(one: ToldVerdict) -> VerdictRow:
         "case": CASE[one.occurs] if one.asked else None,
         "noticed": one.noticed,
         "because": one.because,
+        "effect": one.effect,
+        "hazard": one.hazard,
+        "severity": one.severity,
+        "place": places.get(one.id),
+        "since": one.since,
+        "decision": one.decision,
     }
 
 

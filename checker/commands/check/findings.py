@@ -4,6 +4,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from os.path import relpath
 from pathlib import Path
 from shlex import quote
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.results.gravity import gravest_first
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import ChainStatus
@@ -34,13 +36,12 @@ SITUATION = {"proved": "reached", RESTRICTED: f"out of reach {RESTRICTED}", "vio
 class Guide:
     """Where a user reads on.
 
-    ``options`` make a command be about the same charts, ``chosen`` about the same properties.  ``gravest``
-    are the requirements, those first whose violation is gravest; ``causes`` is a page on all findings.
+    ``options`` make a command be about the same charts, ``chosen`` about the same properties; ``causes`` is a
+    page on all findings.
     """
 
     options: str = ""
     chosen: str = ""
-    gravest: Sequence[str] = ()
     causes: str = ""
 
     def command(self, *words: str) -> str:
@@ -149,27 +150,38 @@ def about_chains(told: Sequence["ChainStatus"]) -> Iterator[str]:
         yield from (f"  {one.text}" for one in told if not one.holds)
 
 
+def about_acceptances(found: Sequence[ToldVerdict]) -> Iterator[str]:
+    """Which findings were accepted until a day that is over: nobody accepts them any more."""
+    over = [one for one in found if one.lapsed]
+    if over:
+        yield "No longer accepted, as the time for which they were is over:"
+        yield from (f"  {one.id}: accepted {one.lapsed}" for one in over)
+
+
 def read_on(found: Sequence[ToldVerdict], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
-    known = gravest([one for one in found if one.as_expected or one.variant], guide.gravest)
-    number = sum(one.word == "violated" for one in found)
+    broken = [one for one in found if one.word == "violated"]
+    known = gravest_first([one for one in broken if one.as_expected or one.variant], lambda one: one.gravity)
     if known:
         yield ""
         yield from listed(known)
-    if number:
+    if broken:
         yield ""
-        yield from _commands(known, number, guide)
+        yield from _commands(known, len(broken), guide)
 
 
 def listed(ordered: Sequence[ToldVerdict]) -> Iterator[str]:
-    """The first findings, each in a line."""
+    """The first findings, each in a line, under a line for each hazard if any is known."""
     if len(ordered) > SHOWN:
-        yield f"Violated, the gravest first, one for each requirement ({SHOWN} of {len(ordered)}):"
+        yield f"Violated, the gravest first ({SHOWN} of {len(ordered)}):"
     else:
         yield "Violated, the gravest first:" if len(ordered) > 1 else "Violated:"
-    for one in ordered[:SHOWN]:
-        out_of_reach = "Cannot be reached: " if one.situation else ""
-        yield f"  {one.id}, {one.system}: {out_of_reach}{one.text}"
+    rated = any(one.hazards for one in ordered)
+    for headline, members in groupby(ordered[:SHOWN], key=lambda one: one.headline):
+        if rated:
+            yield f"  {headline}"
+        for one in members:
+            yield f"  {'  ' * rated}{one.id}, {one.system}: {one.says}"
 
 
 def _commands(known: Sequence[ToldVerdict], number: int, guide: Guide) -> Iterator[str]:
@@ -180,26 +192,3 @@ def _commands(known: Sequence[ToldVerdict], number: int, guide: Guide) -> Iterat
     yield f"All {number} on one page: {page}" if number > 1 else f"On a page: {page}"
     if guide.causes:
         yield f"Causes and proposed repairs: {guide.causes}"
-
-
-def gravest(found: Sequence[ToldVerdict], order: Sequence[str]) -> list[ToldVerdict]:
-    """What is violated: for each requirement the gravest finding, in the order of the requirements, then for
-    each the next, and so on.
-
-    Of one requirement a demand comes before a situation out of reach, then what is shown on more of the
-    charts, then what a shorter run shows.
-    """
-    rank = {id: place for place, id in enumerate(order)}
-    turns = Counter[int]()
-    keyed = []
-    broken = (one for one in found if one.word == "violated")
-    for one in sorted(broken, key=_within):
-        first = min((rank.get(id, len(rank)) for id in one.covers), default=len(rank))
-        keyed.append(((turns[first], first), one))
-        turns[first] += 1
-    return [one for _, one in sorted(keyed, key=lambda pair: pair[0])]
-
-
-def _within(one: ToldVerdict) -> tuple[bool, int, int, str]:
-    """What is graver of two findings about one requirement."""
-    return one.situation, -one.charts, one.ticks or sys.maxsize, one.id

@@ -17,6 +17,7 @@ from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.process.faults import Fault, has_listener, listening, report
 from rovercheck.checker.results.verdict import StoredRun, Unknown
 from rovercheck.checker.verify.checked import CheckedProperty, worst
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import expected
@@ -35,6 +36,10 @@ def undelivered(found: Sequence[CheckedProperty], wanted: int, ended: str = "") 
     """No report beside what is printed."""
 
 
+NO_ORDER = FindingOrder()
+"""Of properties that are nobody's model."""
+
+
 def unkept(found: Sequence[ToldVerdict]) -> None:
     """Nothing is kept of what was told."""
 
@@ -45,7 +50,8 @@ class CheckRequest:
 
     ``variant`` says how the charts differ from those specified.  What is asked ``further`` is asked of all
     that was found; with ``strict`` a proof is an error that speaks of a case that never occurs, or notices no
-    fault.  ``keep`` is called with what was told, once all is decided.
+    fault.  ``keep`` is called with what was told, once all is decided; ``order`` says which findings are
+    gravest.
     """
 
     properties: Sequence[Property]
@@ -56,6 +62,7 @@ class CheckRequest:
     further: CheckExtras = NOTHING_FURTHER
     strict: bool = False
     keep: Callable[[Sequence[ToldVerdict]], None] = unkept
+    order: FindingOrder = NO_ORDER
 
     def compared(self, result: Result) -> CheckedProperty:
         """A result beside the verdict that is expected; where they differ, a run that is kept is replayed."""
@@ -108,13 +115,13 @@ def check(request: CheckRequest, output: CheckOutput = PRINTED) -> Exit:
         ):
             for result in coming:
                 found.append(request.compared(result))
-                output.each(told(found[-1], request.systems))
+                output.each(told(found[-1], request.order))
                 request.further.on_result(found[-1])
         request.further.keep(found)
         found, chains = request.checked(found), request.further.chains(found)
     except BaseException as error:
-        return _ended(error, found, faults, wanted, output)
-    said = [told(c, request.systems) for c in found]
+        return _ended(error, found, faults, request, output)
+    said = [told(c, request.order) for c in found]
     output.end(said, chains, bool(faults))
     if not faults:
         request.keep(said)
@@ -126,20 +133,19 @@ def _ended(
     error: BaseException,
     found: Sequence[CheckedProperty],
     faults: Sequence[Fault],
-    wanted: int,
+    request: CheckRequest,
     output: CheckOutput,
 ) -> Exit:
     """What was decided when an error or Ctrl-C ended the check is delivered all the same.
 
     Raises the error again, unless it is Ctrl-C; as ``UsageError`` where no certificate can be written.
     """
+    wanted, order = len(request.properties), request.order
     if output.as_json:
         from rovercheck.checker.commands.check.document import document
 
-        gravest, said = (
-            bool(faults) and not isinstance(error, KeyboardInterrupt),
-            [told(c, {}) for c in found],
-        )
+        gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
+        said = [told(c, order) for c in found]
         print(json_text(document(said, code_of(error), gravest), ascii=True))
     output.deliver(found, wanted, " ".join(filter(None, (_why(error), _alarmed(faults)))))
     from rovercheck.checker.certify.file import Unwritable

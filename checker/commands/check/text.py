@@ -8,6 +8,7 @@ from rovercheck.checker.commands.check.certificates import certificates, certifi
 from rovercheck.checker.commands.check.findings import (
     ALONE,
     Guide,
+    about_acceptances,
     about_cases,
     about_chains,
     about_faults,
@@ -59,11 +60,20 @@ class CheckText:
             summary(found, self.guide)
             if self.brief:
                 _say(*by_area(found))
-            about = *about_cases(found), *about_faults(found), *about_chains(chains)
+            about = (
+                *about_acceptances(found),
+                *about_cases(found),
+                *about_faults(found),
+                *about_chains(chains),
+            )
             _say(*about, *read_on(found, self.guide))
-        elif any(one.strict for one in found):
-            wrong = [one for one in found if one.exit is not Exit.AS_EXPECTED]
-            _say(*about_cases(wrong), *about_faults(wrong))
+            if self.brief:
+                _say(
+                    f"A line for every verdict: {self.guide.command('check', self.guide.chosen, '--verbose')}"
+                )
+        else:
+            wrong = [one for one in found if one.strict and one.exit is not Exit.AS_EXPECTED]
+            _say(*about_acceptances(found), *about_cases(wrong), *about_faults(wrong))
 
 
 def brief(number: int, verbose: bool) -> bool:
@@ -73,7 +83,7 @@ def brief(number: int, verbose: bool) -> bool:
 
 def _say(*texts: str) -> None:
     for text in texts:
-        out.print(wrapped(text, 4), markup=False)
+        out.print(wrapped(text, 6), markup=False)
 
 
 def line(one: ToldVerdict) -> str:

@@ -6,14 +6,18 @@ asked for one by one (``checker.store.verdicts``).
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
+from datetime import date
 from hashlib import sha256
-from typing import Any
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+
+from typing_extensions import is_typeddict
 
 from rovercheck.checker.cache import entries
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import SearchOptions, SelectionOptions
 from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.results.gravity import Gravity
 from rovercheck.checker.store.tree import tree_key
 
 SCHEMA = "rovercheck/told/1"
@@ -29,11 +33,10 @@ class ToldProperty:
 
 @dataclass(frozen=True)
 class ToldModel:
-    """What was told of a model: properties in their order, systems, requirements from the gravest on."""
+    """What was told of a model: properties in their order, and systems."""
 
     properties: Mapping[str, ToldProperty]
     systems: Sequence[str]
-    order: Sequence[str]
     verdicts: Mapping[str, ToldVerdict]
 
     def chosen(self, selection: SelectionOptions) -> list[ToldVerdict] | None:
@@ -57,12 +60,17 @@ class ToldStore:
 
     @staticmethod
     def now(search: SearchOptions) -> "ToldStore | None":
-        """For the files as they are now; None where they cannot be read."""
+        """For the files as they are now, and today: what was accepted may be so no longer tomorrow.
+
+        None where they cannot be read.
+        """
         try:
             tree = tree_key()
         except OSError:
             return None
-        asked = json.dumps([SCHEMA, tree, search.engine, search.timers, search.depth])
+        asked = json.dumps(
+            [SCHEMA, tree, date.today().isoformat(), search.engine, search.timers, search.depth]
+        )
         return ToldStore(tree, f"{sha256(asked.encode()).hexdigest()}-told-json")
 
     def read(self) -> ToldModel | None:
@@ -72,8 +80,12 @@ class ToldStore:
             return None
         try:
             return _model(json.loads(whole))
-        except (ValueError, KeyError, TypeError, AttributeError):
+        except entries.MEANINGLESS:
             return None
+
+    def forget(self) -> None:
+        """Keep nothing of what was told."""
+        entries.remove(self.name)
 
     def add(self, model: ToldModel) -> None:
         """Keep what was told now beside what was before, unless a file has changed meanwhile."""
@@ -95,9 +107,8 @@ def keepable(one: ToldVerdict) -> bool:
 
 def _model(found: Any) -> ToldModel:
     return ToldModel(
-        {str(id): ToldProperty(**row) for id, row in found["properties"].items()},
+        {str(id): _record(ToldProperty, row) for id, row in found["properties"].items()},
         list(map(str, found["systems"])),
-        list(map(str, found["order"])),
         {str(id): _verdict(row) for id, row in found["verdicts"].items()},
     )
 
@@ -105,4 +116,41 @@ def _model(found: Any) -> ToldModel:
 def _verdict(row: Mapping[str, Any]) -> ToldVerdict:
     codes = {name: Exit(row[name]) for name in ("code", "strict_code")}
     lists = {name: tuple(row[name]) for name in ("covers", "fired")}
-    return ToldVerdict(**{**row, **codes, **lists})
+    gravity = row["gravity"]
+    how = _record(Gravity, {**gravity, "within": tuple(gravity["within"])})
+    return _record(ToldVerdict, {**row, **codes, **lists, "gravity": how})
+
+
+Record = TypeVar("Record", Gravity, ToldProperty, ToldVerdict)
+
+
+def _record(kind: type[Record], row: Mapping[str, Any]) -> Record:
+    """The record with these fields.  Raises ``TypeError`` where one is of another type."""
+    made = kind(**row)
+    for one in fields(made):
+        if not _is(getattr(made, one.name), one.type):
+            raise TypeError(f"{one.name} is {getattr(made, one.name)!r}, no {one.type}")
+    return made
+
+
+def _is(value: object, wanted: Any) -> bool:
+    if is_typeddict(wanted):
+        known = get_type_hints(wanted)
+        return (
+            isinstance(value, dict)
+            and value.keys() == known.keys()
+            and all(_is(value[name], kind) for name, kind in known.items())
+        )
+    if isinstance(wanted, type) and not get_args(wanted):
+        return type(value) is wanted
+    match get_origin(wanted), get_args(wanted):
+        case (kind, words) if kind is Literal:
+            return any(value == word for word in words)
+        case (kind, (member, end)) if kind is tuple and end is ...:
+            return isinstance(value, tuple) and all(_is(one, member) for one in value)
+        case (kind, members) if kind is tuple:
+            return isinstance(value, tuple) and len(value) == len(members) and all(map(_is, value, members))
+        case (kind, (key, member)) if kind is Mapping:
+            return isinstance(value, dict) and all(_is(k, key) and _is(v, member) for k, v in value.items())
+        case _, either:
+            return any(_is(value, one) for one in either)

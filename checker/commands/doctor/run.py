@@ -42,6 +42,7 @@ REQUIRED = {
     "hypothesis": "random runs of compare",
     "jinja2": "HTML pages",
     "junitparser": "JUnit files",
+    "lark": "labels of charts as text",
     "llvmlite": "the engine explicit, which compiles charts",
     "markupsafe": "HTML pages, escaped",
     "networkx": "state graphs",
@@ -51,8 +52,9 @@ REQUIRED = {
     "python-sat": "the engine pdr, reasons of traces",
     "pyvcd": "VCD files",
     "rich": "tables and colours in the terminal",
+    "tomlkit": "accept, which writes into a baseline",
     "typing-extensions": "records of JSON documents",
-    "watchfiles": "check --watch",
+    "watchfiles": "check --watch and serve see that a model is saved",
     "z3-solver": "the engines bmc, kinduction and localisation",
 }
 """Packages that rovercheck cannot do without, and what for."""
@@ -117,6 +119,7 @@ def findings() -> Iterator[DoctorFinding]:
     yield from (_package(name, adds, True) for name, adds in REQUIRED.items())
     yield from _machine()
     yield _cache()
+    yield _verdicts()
     yield from (_package(name, adds, False) for name, adds in OPTIONAL.items())
     yield from (_program(names, adds) for names, adds in PROGRAMS.items())
     yield from _trials()
@@ -188,6 +191,23 @@ def _cache() -> DoctorFinding:
     shown = f"{place}: {counted(len(files), 'file', 'files')}, {size / 2**20:.1f} MiB; sealed with {secret}"
     wrong = _wrong_with_the_cache(place, secret)
     return DoctorFinding("machine", "cache", f"{shown}; {wrong}" if wrong else shown, not wrong, False, adds)
+
+
+def _verdicts() -> DoctorFinding:
+    """Whether verdicts are kept, and how many; what is wrong with the cache is said there."""
+    from rovercheck.checker import cache
+    from rovercheck.checker.cache.places import STORE
+
+    adds = f"not decided again; ${STORE}= (empty) keeps none, check --recheck believes none"
+    if os.environ.get(STORE) == "":
+        return DoctorFinding("machine", "verdicts kept", f"none: ${STORE} is empty", True, False, adds)
+    try:
+        files = [p for p in cache.chosen().glob(f"*-verdict-json{cache.ENDING}") if p.is_file()]
+    except OSError:
+        return DoctorFinding("machine", "verdicts kept", "none: there is no cache", True, False, adds)
+    size = sum(p.stat().st_size for p in files)
+    shown = f"{counted(len(files), 'entry', 'entries')}, {size / 2**20:.1f} MiB"
+    return DoctorFinding("machine", "verdicts kept", shown, True, False, adds)
 
 
 def _wrong_with_the_cache(place: Path, secret: Path) -> str:

@@ -17,6 +17,7 @@ from rovercheck.checker.commands.explore import choose as exploring_choosing
 from rovercheck.checker.commands.explore import keep as exploring_keeping
 from rovercheck.checker.commands.explore import look as exploring_looking
 from rovercheck.checker.commands.explore import move as exploring_moving
+from rovercheck.checker.commands.explore import next as exploring_ahead
 from rovercheck.checker.commands.explore.explorer import Commands, Explorer
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import out
@@ -90,6 +91,7 @@ def _quit(explorer: Explorer, rest: str) -> None:
 
 COMMANDS: Commands = {
     **exploring_moving.COMMANDS,
+    **exploring_ahead.COMMANDS,
     **exploring_choosing.COMMANDS,
     **exploring_looking.COMMANDS,
     **exploring_keeping.COMMANDS,

@@ -11,6 +11,10 @@ COLUMNS, WIDE, NARROWEST, INDENT = 80, 60, 20, 4
 """Of help at most; from which on options stand beside what they do; at least; of what stands below."""
 
 EXAMPLES: dict[str, tuple[str, ...]] = {
+    "accept": (
+        'rovercheck accept PB1-15 --because "3 s are wanted." --owner "A. Rossi"',
+        "rovercheck accept --from decisions.json --model heater.py",
+    ),
     "certify": (
         "rovercheck certify proofs",
         "rovercheck certify proofs --solver bitwuzla --smt2 obligations",
@@ -19,7 +23,8 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         "rovercheck check PB1-15 PB2-01",
         "rovercheck check --system relay --certify",
         "rovercheck check --model heater.py --junit verdicts.xml",
-        "rovercheck check --quiet --json > verdicts.json",
+        "rovercheck check --changed main --quiet",
+        "rovercheck check --model heater.py --watch",
     ),
     "check-log": (
         "rovercheck check-log examples/logs/good.csv",
@@ -28,6 +33,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "compare": (
         "rovercheck compare --system board1",
         "rovercheck compare --system board1 --impl c:examples/board1_c",
+    ),
+    "diff": (
+        "rovercheck diff HEAD",
+        "rovercheck diff main HEAD --model heater.py --format markdown",
     ),
     "export": (
         "rovercheck export PB1-15 --format btor2 -o PB1-15.btor2",

@@ -67,6 +67,11 @@ def text_width() -> int:
     return min(COLUMNS, out.width) if at_terminal(out) else COLUMNS
 
 
+def table_width() -> int:
+    """The columns of what is laid out in a table: as many as a terminal has, elsewhere 80."""
+    return out.width if at_terminal(out) else COLUMNS
+
+
 def wrapped(text: str, indent: int | None = None) -> str:
     """Lines of results: where a terminal is too narrow for one, what follows is indented by so many blanks.
 

@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rovercheck.checker.commands.shared.output import text_width, write
+from rovercheck.checker.commands.shared.output import table_width, write
 from rovercheck.checker.render import Renderer, named
 from rovercheck.checker.results.format import Need, Option
 from rovercheck.checker.results.trace import Trace
@@ -47,8 +47,8 @@ def exit_written(
 
 
 def fitted(renderer: Renderer, output: Path | None) -> Any:
-    """What renders; a text that is laid out in columns and goes to a terminal is as narrow as that."""
+    """What renders; a text that is laid out in columns and goes to a terminal is as wide as that."""
     render: Any = renderer.render
     if output is None and Option.WIDTH in renderer.FORMAT.takes:
-        render = partial(render, width=text_width())
+        render = partial(render, width=table_width())
     return render

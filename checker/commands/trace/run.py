@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.output import err, out, possible, text_width, write, wrote
+from rovercheck.checker.commands.shared.output import err, out, possible, table_width, write, wrote
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.commands.shared.text_wrap import filled
@@ -107,14 +107,15 @@ def trace(
         if result.in_part:
             err.print(_only_some(result.system), markup=False)
         return Exit.AS_EXPECTED
+    because = _reason(wanted, verdict.word)
     if showing.output is None and showing.format == "table":
         _print_heading(wanted, verdict.word)
     if not verdict.because.shortest and wanted.example:
         err.print("Not known to be a shortest run: a shorter one may do the same.", markup=False)
     if showing.runs > 1:
-        _show_several(wanted, verdict.because, engine, limits, showing)
+        _show_several(wanted, verdict.because, because, engine, limits, showing)
         return Exit.AS_EXPECTED
-    first = wanted.drawn(showing.explaining(verdict.because, prop, systems))
+    first = wanted.drawn(showing.explaining(verdict.because, prop, systems)).with_reason(because)
     renderer = showing.renderer
     others = exit_written(renderer, showing.cut(first), systems, showing.output, showing.everything)
     for place in (showing.output, *others):
@@ -127,18 +128,29 @@ def _only_some(system: str) -> str:
 
 
 def _print_heading(wanted: TraceRequest, verdict: str) -> None:
-    prop, on_record = wanted.property, wanted.expected(wanted.property.id)
+    prop = wanted.property
     said = prop.text if wanted.example else f"{prop.id} is {verdict}: {prop.text}"
-    out.print(filled(said, text_width()), markup=False)
-    if on_record.because and on_record.verdict == verdict:
-        out.print(filled(f"Why: {on_record.because}", text_width()), markup=False)
+    out.print(filled(said, table_width()), markup=False)
+
+
+def _reason(wanted: TraceRequest, verdict: str) -> str:
+    """Why the verdict is as it is, where that is written beside the one that is expected."""
+    on_record = wanted.expected(wanted.property.id)
+    return on_record.because if on_record.verdict == verdict else ""
 
 
 def _show_several(
-    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: TraceDisplay
+    wanted: TraceRequest, first: Trace, because: str, engine: str, limits: Limits, showing: TraceDisplay
 ) -> None:
-    """Show runs as they are found; into a file all of them together."""
+    """Show runs as they are found, after what they have in common; into a file all of them together."""
     told: list[str] = []
+    if because and showing.format == "markdown":
+        told.append(f"**Why:** {because.translate(SPECIAL)}\n\n")
+    elif because:
+        told.append(filled(f"Why: {because}", table_width()) + "\n")
+    if showing.output is None:
+        for text in told:
+            write(text, None)
     for text in _several(wanted, first, engine, limits, showing):
         if showing.output is None:
             write(text, None)
@@ -215,4 +227,4 @@ def _rendered(trace: Trace, showing: TraceDisplay) -> str:
 def _heading(title: str, lines: Sequence[str], showing: TraceDisplay) -> str:
     if showing.format == "markdown":
         return "\n\n".join([f"### {title}", *(line.translate(SPECIAL) for line in lines)]) + "\n\n"
-    return "\n".join(["", f"--- {title} ---", *(filled(line, text_width()) for line in lines)]) + "\n"
+    return "\n".join(["", f"--- {title} ---", *(filled(line, table_width()) for line in lines)]) + "\n"

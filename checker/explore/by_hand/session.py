@@ -1,17 +1,22 @@
 """What a person chose so far: inputs that stand, inputs that run free, where to stop, what to watch."""
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
+from typing import TYPE_CHECKING
 
 from rovercheck.checker.explore.by_hand.admissible_inputs import KEPT, assumed, broken, drawn
 from rovercheck.checker.explore.by_hand.condition import condition
 from rovercheck.checker.explore.by_hand.names import Names
 from rovercheck.checker.explore.by_hand.simulation import HandSimulation
 from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, value, variable
+from rovercheck.checker.verify.runs.replay import ReplayError, transition_of
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import System
+
+if TYPE_CHECKING:  # it loads a solver
+    from rovercheck.checker.explore.by_hand.next_steps import NextSteps, PossibleStep, StepFinder
 
 MOST_TICKS = 20_000
 """Ticks that one command executes at most; it says so when it stops there."""
@@ -42,6 +47,7 @@ class Session:
         self.watched: list[str] = []
         self.seed = 0
         self._random = Random(0)
+        self._finder: StepFinder | None = None
         self.standing = self._first()
 
     @property
@@ -127,6 +133,55 @@ class Session:
         sim = self.simulation
         others = sim.inputs.keys() - self.chosen
         return drawn(sim.lowered, sim.state(), self.standing, others, Random(sim.at), keep=1) or self.standing
+
+    def next_steps(self, required: Sequence[str] = ()) -> "NextSteps":
+        """What can happen in the next tick, of ``required`` keys only what can happen together with them."""
+        if self._finder is None:
+            from rovercheck.checker.explore.by_hand.next_steps import StepFinder
+
+            self._finder = StepFinder(self.simulation.system)
+        sim = self.simulation
+        return self._finder.find(sim.state(), self.standing, required, first=not sim.at)
+
+    def take(self, step: "PossibleStep", together: Sequence["PossibleStep"] = ()) -> ExecutedTicks:
+        """Execute the next tick with the inputs of a possible step, which then stand.
+
+        ``together`` are further steps that these inputs lead to.  Raises as ``Simulation.step`` does, and
+        ``ReplayError`` when the interpreter does something else than the steps say.
+        """
+        ran = self.follow(step.frozen, [step.inputs])
+        sim = self.simulation
+        for one in (step, *together):
+            says = {(t.source, t.target) for t in one.transitions}
+            taken = {transition_of(fired) for fired in sim.fired() if fired.chart == one.of}
+            if one.becomes is None and {(t.source, t.target) for t in taken} != says:
+                raise ReplayError(f"tick {sim.at}: {one.of} was to take {says}, but it took {taken}.")
+            if one.becomes is not None and sim.state()[one.of] != one.becomes[1]:
+                raise ReplayError(f"tick {sim.at}: {one.of} was to become {one.becomes[1]}.")
+        return ran
+
+    def both(self, steps: Sequence["PossibleStep"]) -> "PossibleStep":
+        """A tick in which several possible steps happen.  Raises ``RefusedInput`` if there is none."""
+        found = self.next_steps([step.key for step in steps]).of(steps[0].key)
+        if found is None:
+            listed = " and ".join(step.title for step in steps)
+            raise RefusedInput(f"No inputs lead to {listed} in one tick.")
+        return found
+
+    def follow(self, frozen: Mapping[str, int], inputs: Iterable[Mapping[str, int]]) -> ExecutedTicks:
+        """Execute ticks with given inputs from the tick that is looked at; the last inputs then stand.
+
+        ``frozen`` values count before the first tick only.  Raises as ``Simulation.step`` does.
+        """
+        sim = self.simulation
+        first, forgotten = sim.at + 1, len(sim) - sim.at
+        if not sim.at:
+            for name, raw in frozen.items():
+                sim.fix(name, raw)
+        for given in inputs:
+            sim.step({name: given.get(name, self.standing[name]) for name in sim.inputs})
+            self.standing = sim.given()
+        return ExecutedTicks(first, sim.at, forgotten)
 
     def goto(self, tick: int) -> None:
         """Look at another tick; inputs stand as in it.  Raises ``RefusedInput``."""

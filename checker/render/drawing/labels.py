@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from rovercheck.spec_model.lang.action import Action, If
+from rovercheck.spec_model.lang.action import Action, ActionCall, If, as_calls, call_of, each_action
 from rovercheck.spec_model.lang.chart import Chart, Path, State, Transition
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Named
@@ -65,8 +65,8 @@ def _from(
 def label_parts(arrow: Transition) -> tuple[str, ...]:
     """The parts of a label that may stand on lines of their own: event, guard, actions."""
     parts = [arrow.event or "", f"[{text(arrow.guard)}]" if arrow.guard is not None else ""]
-    parts.append("{" + "; ".join(map(str, arrow.do)) + "}" if arrow.do else "")
-    parts.append("/ " + "; ".join(map(str, arrow.then)) if arrow.then else "")
+    parts.append("{" + "; ".join(map(str, as_calls(arrow.do))) + "}" if arrow.do else "")
+    parts.append("/ " + "; ".join(map(str, as_calls(arrow.then))) if arrow.then else "")
     return tuple(filter(None, parts))
 
 
@@ -80,16 +80,16 @@ def action_lines(state: State) -> tuple[str, ...]:
     lines: list[str] = []
     for word, actions in (("entry", state.entry), ("during", state.during), ("exit", state.exit)):
         if actions:
-            shown = [line for action in actions for line in _lines(action)]
+            shown = [line for action in as_calls(actions) for line in _lines(action)]
             lines += [f"{word}: {shown[0]}"] if len(shown) == 1 else [f"{word}:", *("  " + s for s in shown)]
     return tuple(lines)
 
 
-def _lines(action: Action) -> list[str]:
+def _lines(action: Action | ActionCall) -> list[str]:
     if not isinstance(action, If) or len(str(action)) <= 46:
         return [str(action)]
     lines = [f"if {text(action.condition)}"]
-    lines += ["  " + line for inner in action.then for line in _lines(inner)]
+    lines += ["  " + line for inner in as_calls(action.then) for line in _lines(inner)]
     match action.otherwise:
         case ():
             return lines
@@ -97,12 +97,15 @@ def _lines(action: Action) -> list[str]:
             rest = _lines(chained)
             return [*lines, f"else {rest[0]}", *rest[1:]]
         case otherwise:
-            return [*lines, "else", *("  " + line for inner in otherwise for line in _lines(inner))]
+            return [*lines, "else", *("  " + line for inner in as_calls(otherwise) for line in _lines(inner))]
 
 
 def explained(chart: Chart) -> dict[str, str]:
-    """The names given to formulas that the labels and actions use, with what they stand for."""
+    """The names of formulas and of shared actions that the chart shows, with what they stand for."""
     found: dict[str, str] = {}
+    for action in each_action(chart.all_actions):
+        if call := call_of(action):
+            found.setdefault(call.name, "; ".join(map(str, call.actions)))
     for expr in nodes(*chart.expressions):
         if isinstance(expr, Named) and text(expr) != text(expr, unfold=True):
             found.setdefault(expr.name, text(expr, unfold=True))

@@ -24,11 +24,15 @@ MANNERS = (Manner(36, 62), Manner(28, 48), Manner(24, 42), Manner(20, 42), Manne
 
 @dataclass(frozen=True)
 class Sheet:
-    """The chart and its arrows, which every level looks at, how they are drawn, and levels drawn so far."""
+    """The chart and its arrows, which every level looks at, how they are drawn, and levels drawn so far.
+
+    ``folded``: of long lists of actions only the beginning is drawn.
+    """
 
     chart: Chart
     arrows: tuple[ChartArrow, ...]
     manner: Manner
+    folded: bool = False
     drawn: dict[tuple[object, ...], DrawnPicture] = field(default_factory=dict)
 
 

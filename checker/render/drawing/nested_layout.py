@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from rovercheck.checker.render.drawing.cuts import DOT, Cut, CutWay, Sides, cuts, edges, meetings, padded
+from rovercheck.checker.render.drawing.folding import shortened
 from rovercheck.checker.render.drawing.graph import DrawnNode, Edge, PlacedNode
 from rovercheck.checker.render.drawing.labels import action_lines, arrows, execution_order
 from rovercheck.checker.render.drawing.layered_layout import layered
@@ -126,15 +127,17 @@ SHORTER = 1.05
 
 
 @lru_cache(maxsize=64)
-def picture(chart: Chart) -> DrawnPicture:
+def picture(chart: Chart, folded: bool = False) -> DrawnPicture:
     """The chart with coordinates, in the first manner that fits a page or else the best.
+
+    ``folded``: of long lists of actions only the beginning is drawn.
 
     Raises ``ModelError`` for an arrow to an unknown name or between parallel regions.
     """
     every, page = arrows(chart), PackedSpan(0, PAGE)
     tried: list[tuple[float, float, DrawnPicture]] = []
     for number, manner in enumerate(MANNERS):
-        found = _level(Sheet(chart, every, manner), (), {}, page, None)
+        found = _level(Sheet(chart, every, manner, folded), (), {}, page, None)
         if found.width <= PAGE and found.height <= TALL:
             return found
         tried.append((page.excess(found.width), SHORTER**number * cost((found.width, found.height)), found))
@@ -210,7 +213,8 @@ def _box(
 ) -> DrawnPicture:
     """A state's box, its frame first, with ports for the arrows that go on inside."""
     state = sheet.chart.states[path]
-    lines = tuple(x for line in action_lines(state) for x in wrap(line, sheet.manner.action, "    "))
+    actions = shortened(action_lines(state)) if sheet.folded else action_lines(state)
+    lines = tuple(x for line in actions for x in wrap(line, sheet.manner.action, "    "))
     wide = max(width(path[-1], TITLE, bold=True) + 30, block(lines)[0], 60 - 2 * PAD, span.least - 2 * PAD)
     head = HEAD + LINE * len(lines) + (4 if lines else 0)
     if not state.states:

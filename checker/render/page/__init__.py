@@ -74,8 +74,8 @@ def data(value: Any, kind: str) -> Markup:
     return Markup('<script type="application/json" class="{}">{}</script>').format(kind, Markup(text))
 
 
-def page(title: str, parts: Iterable[Part]) -> str:
-    """One HTML document with the parts in their order.
+def page(title: str, parts: Iterable[Part], *, connects: bool = False) -> str:
+    """One HTML document with the parts in their order; one that ``connects`` may ask its own server.
 
     Raises ``ValueError`` for a style or script that would end its own element.
     """
@@ -84,7 +84,7 @@ def page(title: str, parts: Iterable[Part]) -> str:
     scripts = [*dict.fromkeys(text for part in shown for text in part.scripts)]
     return TEMPLATES.get_template("page.html").render(
         title=title,
-        policy=_policy(scripts),
+        policy=_policy(scripts, connects),
         styles=[_whole(text, "style") for text in styles],
         scripts=[_whole(text, "script") for text in scripts],
         bodies=[part.body for part in shown],
@@ -97,13 +97,13 @@ def _whole(text: str, element: str) -> Markup:
     return Markup(text)
 
 
-NONE = "'none'"
+NONE, SELF = "'none'", "'self'"
 
 
-def _policy(scripts: Iterable[str]) -> str:
-    """Nothing is fetched, sent or embedded; only these scripts run."""
+def _policy(scripts: Iterable[str], connects: bool) -> str:
+    """Nothing is embedded, only these scripts run, and nothing is fetched or sent, but to its own server."""
     hashes = " ".join(f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'" for text in scripts)
     return (
         f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src {hashes or NONE}; "
-        "base-uri 'none'; form-action 'none'"
+        f"connect-src {SELF if connects else NONE}; base-uri 'none'; form-action 'none'"
     )

@@ -10,8 +10,9 @@ from markupsafe import Markup
 from rovercheck.checker.render.drawing.emphasis import segments
 from rovercheck.checker.render.drawing.labels import arrows
 from rovercheck.checker.render.page import Part, data, templates
+from rovercheck.checker.render.page import own as of_page
 from rovercheck.checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
-from rovercheck.checker.render.statechart_svg import LEGEND, STYLE, inline, size
+from rovercheck.checker.render.statechart_svg import LEGEND, PAGE_STYLE, inline, size
 from rovercheck.checker.render.story import StoryEvent, ending, false_parts, heading, start_of, value
 from rovercheck.checker.results.trace import TakenTransition, Trace
 from rovercheck.spec_model.lang.chart import Chart
@@ -20,6 +21,9 @@ TEMPLATES = templates("player")
 
 ROOM = 880
 """Pictures up to this width, in pixels, have what is said of a step beside them, others below it."""
+
+PICTURES = (of_page("zoom.js"), of_page("picture.js"), of_page("unfold.js"))
+"""The scripts of pictures: zoom, and lists of actions that unfold."""
 
 AREA = 700_000
 """Charts that take no more than so many square pixels together are all shown at first."""
@@ -45,7 +49,7 @@ def part(trace: Trace, *, everything: bool = False, pictures: bool = True, print
         events=[_event_data(event) for event in played.events] if printed else [],
         data=data(_played(trace, charts, played), "player-data"),
     )
-    return Part(Markup(body), (STYLE, own("player.css")), (own("player.js"),))
+    return Part(Markup(body), (PAGE_STYLE, own("player.css")), (*PICTURES, own("player.js")))
 
 
 def gallery(traces: Iterable[Trace], *, everything: bool = False) -> Part:
@@ -53,7 +57,7 @@ def gallery(traces: Iterable[Trace], *, everything: bool = False) -> Part:
     found = {key(c): c for trace in traces for c in shown_charts(trace, everything=everything)}
     holder = Markup('<template class="player-picture" data-picture="{}">{}</template>')
     body = Markup("").join(holder.format(name, Markup(inline(chart))) for name, chart in found.items())
-    return Part(body, (STYLE,))
+    return Part(body, (PAGE_STYLE,), PICTURES)
 
 
 def key(chart: Chart) -> str:

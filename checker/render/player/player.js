@@ -26,6 +26,7 @@
       this.data = JSON.parse(root.querySelector(".player-data").textContent);
       this.figures = [...root.querySelectorAll(".player-chart")];
       this.figures.forEach((figure) => this.fill(figure));
+      this.pictures = this.figures.map(fittedPicture);
       this.parts = new Map(this.figures.map((figure) => [figure.dataset.chart, this.index(figure)]));
       this.choices = [...root.querySelectorAll(".player-choice button")];
       this.steps = this.unfolded();
@@ -74,6 +75,9 @@
     listen() {
       for (const name of ["first", "back", "play", "next", "last"]) {
         this.one(name).addEventListener("click", () => this[name]());
+      }
+      for (const [name, act] of [["out", (one) => one.zoom(1 / 1.4)], ["in", (one) => one.zoom(1.4)], ["fit", (one) => one.fit()]]) {
+        this.one(name).addEventListener("click", () => this.pictures.forEach(act));
       }
       this.one("tick").addEventListener("input", (event) => {
         this.seek(Number(event.target.value));

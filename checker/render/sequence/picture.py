@@ -9,6 +9,7 @@ from rovercheck.checker.render.drawing.svg import document, tag, text
 from rovercheck.checker.render.drawing.svg import lines as paragraph
 from rovercheck.checker.render.drawing.text import LINE, SIZE, width, wrap
 from rovercheck.checker.render.durations import duration
+from rovercheck.checker.render.reasons import determined_by
 from rovercheck.checker.render.sequence.steps import (
     Message,
     MessageSequence,
@@ -17,7 +18,6 @@ from rovercheck.checker.render.sequence.steps import (
     SequenceStep,
 )
 from rovercheck.checker.render.story import Repeats, ending, false_parts, heading
-from rovercheck.checker.render.timeline import determined_by
 from rovercheck.checker.results.trace import Trace
 
 LEFT, MARGIN = 84, 16
@@ -252,6 +252,8 @@ def _end(trace: Trace, sequence: MessageSequence, columns: SequenceColumns, y: i
         lines += [
             (line, "wrong") for line in wrap(f"{told}   ({values})" if values else told, letters, "   ")
         ]
+    because = f"Why: {trace.property.because}" if trace.property.because else ""
+    lines += [(line, "") for line in wrap(because, letters)]
     lines += [(line, "") for line in (*wrap(determined_by(trace), letters), *wrap(ending(trace), letters))]
     lines = lines or [(f"Tick {len(trace)} shows it.", "")]
     tall, class_ = LINE * len(lines) + 12, "end" if trace.property.false_parts else "head"

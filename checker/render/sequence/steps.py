@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from rovercheck.checker.render.periods import RepeatedTicks, folded
 from rovercheck.checker.render.sequence.flow import ENVIRONMENT, SequenceFlow, flow
-from rovercheck.checker.render.story import Quiet, Repeats, Row, StoryChange, StoryEvent, rows, start_of
+from rovercheck.checker.render.story import Quiet, Repeats, Row, StoryChange, StoryEvent, start_of
 from rovercheck.checker.results.trace import TakenTransition, Trace
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.walk import variables
@@ -46,11 +47,12 @@ class SequenceStep:
 
 @dataclass(frozen=True)
 class Pause:
-    """Ticks ``first`` to ``last``, of which nothing is told, and why."""
+    """Ticks ``first`` to ``last``, of which nothing is told, and why; ``again``: they repeat what is told."""
 
     first: int
     last: int
     why: str
+    again: bool = False
 
 
 Told = SequenceStep | Pause | Repeats
@@ -75,7 +77,7 @@ def message_sequence(trace: Trace, *, everything: bool = False) -> MessageSequen
     """
     shown = trace if everything or not trace.property.relevant else trace.focused()
     between = flow(trace, everything=everything)
-    story = list(rows(shown))
+    story = list(folded(shown))
     steps, used = _steps(shown, between, story, apart=True)
     if len(used) > MOST:
         steps, used = _steps(shown, between, story, apart=False)
@@ -107,7 +109,7 @@ def _without(step: SequenceStep, idle: Sequence[str]) -> SequenceStep:
 
 
 def _steps(
-    trace: Trace, between: SequenceFlow, story: Sequence[Row], *, apart: bool
+    trace: Trace, between: SequenceFlow, story: Sequence[Row | RepeatedTicks], *, apart: bool
 ) -> tuple[list[Told], tuple[str, ...]]:
     """What is told, and the lifelines that take part; ``apart``: sensors have lifelines of their own."""
     steps = [_described(trace, between, row, apart) for row in story]
@@ -127,10 +129,10 @@ def _ends(item: Message | SequenceNote) -> tuple[str, ...]:
 
 
 def _joined(steps: Sequence[Told]) -> Iterator[Told]:
-    """With pauses that follow each other as one."""
+    """With pauses that follow each other as one, but for repetitions."""
     pause: Pause | None = None
     for step in steps:
-        if isinstance(step, Pause):
+        if isinstance(step, Pause) and not step.again:
             pause = replace(pause, last=step.last, why=INSIDE) if pause else step
             continue
         if pause:
@@ -141,10 +143,12 @@ def _joined(steps: Sequence[Told]) -> Iterator[Told]:
         yield pause
 
 
-def _described(trace: Trace, between: SequenceFlow, row: Row, apart: bool) -> Told:
+def _described(trace: Trace, between: SequenceFlow, row: Row | RepeatedTicks, apart: bool) -> Told:
     match row:
         case Quiet():
             return Pause(row.first, row.last, "nothing but timers" if row.counters else "nothing changes")
+        case RepeatedTicks():
+            return Pause(row.first, row.last, f"{row.told} again, {row.times} times", again=True)
         case StoryEvent():
             step = _step(trace, between, row, apart)
             empty = not step.items and row.number < len(trace)

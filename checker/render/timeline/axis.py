@@ -1,9 +1,10 @@
-"""Where ticks are across the picture: to scale, or with long quiet stretches shortened."""
+"""Where ticks are across the picture: to scale, or with quiet stretches and repeated periods shortened."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from rovercheck.checker.render.drawing.text import width
+from rovercheck.checker.render.periods import RepeatedTicks
 from rovercheck.checker.render.timeline.model import Timeline
 
 WIDTH = 960
@@ -12,17 +13,21 @@ WIDEST, NARROWEST = 240.0, 3.0
 """Pixels of a tick."""
 TO_SCALE = 6.0
 """Pixels that a tick has at least in a picture to scale."""
-SHORTENED = 60.0
-"""Pixels of a shortened stretch."""
+SHORTENED, FOLDED = 60.0, 90.0
+"""Pixels of a shortened stretch, and of ticks that repeat those before them."""
 SMALL = 10
 
 
 @dataclass(frozen=True)
 class Axis:
-    """``edges`` has the left edge of every tick and the right edge of the last; ``breaks`` are shortened."""
+    """``edges`` has the left edge of every tick and the right edge of the last.
+
+    ``breaks`` are shortened, and ``folds`` are ticks of which it is only said what they repeat.
+    """
 
     edges: tuple[float, ...]
     breaks: tuple[tuple[int, int], ...]
+    folds: tuple[RepeatedTicks, ...] = ()
 
     @property
     def width(self) -> float:
@@ -39,17 +44,28 @@ class Axis:
 
 
 def fit(timeline: Timeline, wide: int = WIDTH) -> Axis:
-    """Ticks to scale where they have room; else quiet stretches longer than a mark for them are shortened."""
+    """Ticks to scale where they have room; else what is longer than a mark for it is shortened.
+
+    That are quiet stretches, and repeated periods.
+    """
     count = max(timeline.ticks, 1)
     tick = min(WIDEST, wide / count)
-    breaks: tuple[tuple[int, int], ...] = ()
+    marks: Marks = {}
     if tick < TO_SCALE:
-        breaks, tick = _shortened(timeline, wide)
-    inside = {k: last - first + 1 for first, last in breaks for k in range(first, last + 1)}
+        marks, tick = _shortened(timeline, wide)
+    inside = {
+        k: room / (last - first + 1) for (first, last), room in marks.items() for k in range(first, last + 1)
+    }
     edges = [0.0]
     for k in range(1, count + 1):
-        edges.append(edges[-1] + (SHORTENED / inside[k] if k in inside else tick))
-    return Axis(tuple(map(_short, edges)), breaks)
+        edges.append(edges[-1] + inside.get(k, tick))
+    folds = tuple(row for row in timeline.repeated if (row.first, row.last) in marks)
+    whole = {(row.first, row.last) for row in folds}
+    return Axis(tuple(map(_short, edges)), tuple(sorted(marks.keys() - whole)), folds)
+
+
+Marks = dict[tuple[int, int], float]
+"""Stretches that are shortened, with the pixels of each."""
 
 
 def _short(x: float) -> float:
@@ -58,19 +74,20 @@ def _short(x: float) -> float:
     return int(rounded) if rounded == int(rounded) else rounded
 
 
-def _shortened(timeline: Timeline, wide: int) -> tuple[tuple[tuple[int, int], ...], float]:
+def _shortened(timeline: Timeline, wide: int) -> tuple[Marks, float]:
     """The stretches to shorten, and the width of the other ticks."""
-    breaks = tuple(_without_loop_start(timeline))
+    marks = dict.fromkeys(without_loop_start(timeline), SHORTENED)
+    marks |= {(row.first, row.last): FOLDED for row in timeline.repeated}
     while True:
-        rest = timeline.ticks - sum(last - first + 1 for first, last in breaks)
-        tick = max(NARROWEST, min(WIDEST / 2, (wide - SHORTENED * len(breaks)) / max(rest, 1)))
-        worth = tuple(b for b in breaks if (b[1] - b[0] + 1) * tick > SHORTENED)
-        if worth == breaks:
-            return breaks, tick
-        breaks = worth
+        rest = timeline.ticks - shortened(marks)
+        tick = max(NARROWEST, min(WIDEST / 2, (wide - sum(marks.values())) / max(rest, 1)))
+        worth = {b: room for b, room in marks.items() if (b[1] - b[0] + 1) * tick > room}
+        if worth == marks:
+            return marks, tick
+        marks = worth
 
 
-def _without_loop_start(timeline: Timeline) -> Iterator[tuple[int, int]]:
+def without_loop_start(timeline: Timeline) -> Iterator[tuple[int, int]]:
     """Quiet stretches of two ticks or more, cut where the part that repeats starts."""
     for first, last in timeline.quiet:
         start = timeline.loop
@@ -80,24 +97,23 @@ def _without_loop_start(timeline: Timeline) -> Iterator[tuple[int, int]]:
 
 def labelled(timeline: Timeline, axis: Axis) -> list[int]:
     """Ticks whose number and time are written: the ends, those beside a break, and others with room."""
-    wanted = [1, timeline.ticks, *(t for first, last in axis.breaks for t in (last + 1, first - 1))]
+    spans = [*axis.breaks, *((row.first, row.last) for row in axis.folds)]
+    wanted = [1, timeline.ticks, *(t for first, last in spans for t in (last + 1, first - 1))]
     if timeline.loop:
         wanted.insert(2, timeline.loop + 1)
-    for step in (100, 50, 20, 10, 5, 2, 1):
+    for step in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1):
         wanted += range(step, timeline.ticks + 1, step)
-    taken: list[tuple[float, float]] = [_middle(axis, first, last) for first, last in axis.breaks]
+    taken: list[tuple[float, float]] = [_middle(axis, first, last) for first, last in spans]
     found: set[int] = set()
     for tick in dict.fromkeys(t for t in wanted if 1 <= t <= timeline.ticks):
         half = width(f"{timeline.ms(tick)}", SMALL) / 2 + 3
         left, right = axis.middle(tick) - half, axis.middle(tick) + half
-        if not _inside(axis, tick) and all(right <= a or left >= b for a, b in taken):
+        if not any(first <= tick <= last for first, last in spans) and all(
+            right <= a or left >= b for a, b in taken
+        ):
             taken.append((left, right))
             found.add(tick)
     return sorted(found)
-
-
-def _inside(axis: Axis, tick: int) -> bool:
-    return any(first <= tick <= last for first, last in axis.breaks)
 
 
 def _middle(axis: Axis, first: int, last: int) -> tuple[float, float]:

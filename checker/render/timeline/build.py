@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import groupby
 
 from rovercheck.checker.render.lanes import Tone
-from rovercheck.checker.render.reasons import meaning, reasons
-from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
+from rovercheck.checker.render.periods import RepeatedTicks, folded
+from rovercheck.checker.render.reasons import determined_by, reasons
+from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, value
 from rovercheck.checker.render.timeline.limits import Limits, thresholds, time_limits
 from rovercheck.checker.render.timeline.model import (
     Lane,
@@ -85,6 +85,7 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
     values = {name: _values(shown, name) for name in _names(shown)}
     still = _constant(shown, values)
     limits, spans = thresholds(_compared(trace)), time_limits(trace)
+    told = list(folded(shown))
     lanes = [_lane(shown, n, v, limits, spans) for n, v in values.items() if n not in still]
     return Timeline(
         property=trace.property.id,
@@ -94,11 +95,13 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         clock=trace.clock(),
         lanes=(*sorted(lanes, key=_place(shown)), *parts(trace)),
         constant=tuple(_unchanging(trace, still)),
-        quiet=tuple((row.first, row.last) for row in rows(shown) if isinstance(row, Quiet)),
+        quiet=tuple((row.first, row.last) for row in told if isinstance(row, Quiet)),
+        repeated=tuple(row for row in told if isinstance(row, RepeatedTicks)),
         loop=trace.loop,
         wrong=tuple(_wrong(trace)),
         ending=ending(trace),
         cause=determined_by(trace),
+        because=trace.property.because,
     )
 
 
@@ -172,13 +175,6 @@ def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits
         shots=tuple(_shots(trace, name)),
         doc=trace.system.variables[name].doc,
     )
-
-
-def determined_by(trace: Trace) -> str:
-    """Which inputs determine the end of the run, and what that means; empty where nobody examined that."""
-    told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
-    spans = [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]
-    return f"Determined by {'; '.join(spans)}. {meaning(trace)}" if spans else meaning(trace)
 
 
 def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> bool:

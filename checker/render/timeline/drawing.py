@@ -3,11 +3,14 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from xml.sax.saxutils import escape
 
 from rovercheck.checker.render.drawing.svg import tag, text
 from rovercheck.checker.render.drawing.text import LINE, SIZE, width, wrap
+from rovercheck.checker.render.periods import RepeatedTicks
 from rovercheck.checker.render.timeline.axis import Axis, labelled
 from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, Timeline
+from rovercheck.checker.render.timeline.runs import outside
 from rovercheck.checker.render.timeline.shapes import HEIGHT, shapes
 
 NAMES = 190
@@ -76,9 +79,11 @@ def plot(placed: PlacedLane, *, tips: bool = True) -> Iterator[str]:
     yield from _axis(placed)
     for row in placed.rows:
         if row.lane is not None:
-            yield from shapes(row.lane, axis, row.top, row.tall, tips=tips)
+            yield from shapes(outside(row.lane, axis.folds), axis, row.top, row.tall, tips=tips)
     for first, last in axis.breaks:
         yield from _break(placed, first, last)
+    for fold in axis.folds:
+        yield from _fold(placed, fold)
     if timeline.ticks and timeline.loop is None:
         yield from _end(placed)
 
@@ -119,6 +124,27 @@ def _break(placed: PlacedLane, first: int, last: int) -> Iterator[str]:
     yield tag("path", d=zigzag, class_="tl-cut", transform="translate(3 0)")
     yield text(x, HEAD - 18, f"{last - first + 1} ticks", "tl-ms", text_anchor="middle")
     yield text(x, HEAD - 5, "≈", "tl-ms", text_anchor="middle")
+
+
+def _fold(placed: PlacedLane, fold: RepeatedTicks) -> Iterator[str]:
+    """A box instead of the ticks that repeat those before them, and a bracket over the first time."""
+    axis, start = placed.axis, fold.first - fold.period
+    left, right = axis.left(fold.first), axis.right(fold.last)
+    box = {
+        "x": left + 3,
+        "y": HEAD + 1,
+        "width": round(right - left - 6, 2),
+        "height": placed.height - HEAD - 2,
+    }
+    yield tag("rect", tag("title", escape(fold.what)), **box, rx=4, class_="tl-fold")
+    middle, low = round((left + right) / 2, 1), round((HEAD + placed.height) / 2, 1)
+    if width(again := f"{fold.told} again") < box["height"]:
+        yield text(middle + 4, low, again, "tl-fold-text", text_anchor="middle",
+                   transform=f"rotate(-90 {middle + 4} {low})")  # fmt: skip
+    yield tag("path", d=f"M{axis.left(start)} 20v-4H{left - 2}v4", class_="tl-bracket")
+    yield text(middle, 13, f"× {fold.times} more", "tl-loop-text", text_anchor="middle")
+    yield text(middle, HEAD - 18, f"{fold.first}–{fold.last}", "tl-tick", text_anchor="middle")
+    yield text(middle, HEAD - 5, "–".join(map(str, fold.ms)), "tl-ms", text_anchor="middle")
 
 
 def _end(placed: PlacedLane) -> Iterator[str]:

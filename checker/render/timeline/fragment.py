@@ -1,26 +1,25 @@
-"""The timeline as a part of a page: lanes that scroll, a cursor, and every value in the tick under it."""
+"""The timeline as a part of a page: lanes that zoom and fold, cursors, and every value beside its name."""
 
+from collections.abc import Iterator
+from dataclasses import replace
 from importlib.resources import files
 from typing import Any
 
 from markupsafe import Markup, escape
 
 from rovercheck.checker.render.page import Part, data, templates
-from rovercheck.checker.render.timeline.axis import Axis, fit
+from rovercheck.checker.render.page import own as of_page
+from rovercheck.checker.render.timeline.axis import without_loop_start
 from rovercheck.checker.render.timeline.build import timeline
-from rovercheck.checker.render.timeline.drawing import HEAD, place, plot
-from rovercheck.checker.render.timeline.model import Lane, Timeline
-from rovercheck.checker.render.timeline.picture import RIGHT, scale, signs
-from rovercheck.checker.render.timeline.shapes import reach
+from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, Timeline, TimelineRun
+from rovercheck.checker.render.timeline.picture import picture, signs
+from rovercheck.checker.render.timeline.shapes import HEIGHT, reach, visible
 from rovercheck.checker.render.timeline.style import THEMED, sheet
 from rovercheck.checker.results.trace import Trace
 
 TEMPLATES = templates("timeline")
-PAPER = 690
-"""Pixels across a printed page."""
-BESIDE = 580
-"""Pixels of the lanes beside the table of values."""
-NAMES = 226
+TALLEST = 30
+"""Pixels of a lane at least: a name in two lines."""
 
 
 def part(trace: Trace, *, everything: bool = False) -> Part:
@@ -29,28 +28,25 @@ def part(trace: Trace, *, everything: bool = False) -> Part:
     Several may be on one page.
     """
     shown = timeline(trace, everything=everything)
-    axis = fit(shown, BESIDE)
-    placed = place(shown, axis)
-    wide = round(axis.width + RIGHT)
+    ordered = replace(shown, lanes=tuple(lane for group in LaneGroup for lane in shown.of(group)))
     body = TEMPLATES.get_template("timeline.html").render(
-        scale=scale(shown, placed),
         heading=shown.heading,
-        zoom=round(min(1, PAPER / (wide + NAMES)), 3),
-        wide=wide,
-        height=placed.height,
-        head=HEAD,
-        rows=placed.rows,
-        lanes=shown.lanes,
+        groups=[(group.value, members) for group in LaneGroup if (members := shown.of(group))],
+        lanes=ordered.lanes,
+        folds=shown.repeated,
         constant=shown.constant,
-        plot=Markup("".join(plot(placed, tips=False))),
         signs=[(Markup(sign), meaning) for sign, meaning in signs(shown)],
         wrongs=shown.wrong,
         ending=shown.ending,
         broken=broken,
         number=lambda lane, end: f"{float(reach(lane)[end]):g}",
-        data=data(_data(shown, axis), "tl-data"),
+        still=Markup(picture(shown)),
+        data=data(_data(ordered), "tl-data"),
     )
-    return Part(Markup(body), (own("timeline.css"), sheet(THEMED)), (own("timeline.js"),))
+    styles = (own("timeline.css"), sheet(THEMED))
+    return Part(
+        Markup(body), styles, (of_page("zoom.js"), own("lanes.js"), own("marks.js"), own("timeline.js"))
+    )
 
 
 def own(name: str) -> str:
@@ -63,11 +59,52 @@ def broken(name: str) -> Markup:
     return Markup(str(escape(name)).replace("_", "_<wbr>").replace(".", ".<wbr>"))
 
 
-def _data(shown: Timeline, axis: Axis) -> dict[str, Any]:
-    """What the script needs: the edges of ticks, and the runs of each lane."""
-    edges = axis.edges if shown.ticks else (0,)
-    return {"edges": edges, "ms": shown.clock, "lanes": [_runs(lane) for lane in shown.lanes]}
+def _data(shown: Timeline) -> dict[str, Any]:
+    """What the script needs: the clock, what can be shortened, and what each lane shows."""
+    return {
+        "count": shown.ticks,
+        "ms": shown.clock,
+        "loop": shown.loop,
+        "wrong": bool(shown.wrong),
+        "stretches": sorted([*_quiet(shown), *_repeated(shown)], key=lambda one: int(one["first"])),
+        "lanes": [_lane(lane) for lane in shown.lanes],
+    }
 
 
-def _runs(lane: Lane) -> list[list[int | str]]:
-    return [[r.first, r.last, r.label, *([r.until] if r.until else [])] for r in lane.runs]
+def _quiet(shown: Timeline) -> Iterator[dict[str, Any]]:
+    for first, last in without_loop_start(shown):
+        what = f"Ticks {first}–{last}: only running counters change"
+        yield {"kind": "quiet", "first": first, "last": last, "what": what}
+
+
+def _repeated(shown: Timeline) -> Iterator[dict[str, Any]]:
+    for number, row in enumerate(shown.repeated):
+        yield {
+            "kind": "fold",
+            "first": row.first,
+            "last": row.last,
+            "what": row.what,
+            "fold": number,
+            "told": f"{row.told} again",
+            "period": row.period,
+            "times": row.times,
+        }
+
+
+def _lane(lane: Lane) -> dict[str, Any]:
+    return {
+        "kind": lane.kind,
+        "group": lane.group.value,
+        "tall": max(HEIGHT[lane.kind], TALLEST),
+        "reach": [float(end) for end in reach(lane)],
+        "runs": [_run(lane, run) for run in lane.runs],
+        "limits": [[float(limit.value), limit.label] for limit in visible(lane)],
+        "needed": [[n.first, n.last, f"{n.condition} is needed"] for n in lane.needed],
+        "shots": [[shot.tick, shot.text] for shot in lane.shots],
+    }
+
+
+def _run(lane: Lane, run: TimelineRun) -> list[int | float | str]:
+    """Ticks, label, meaning, the numbers at both ends; and the label of the last tick where it differs."""
+    ends = (float(run.low), float(run.high)) if lane.kind in (LaneKind.LINE, LaneKind.RAMP) else (0, 0)
+    return [run.first, run.last, run.label, run.tone.value, *ends, *([run.until] if run.until else [])]

@@ -5,6 +5,7 @@ from enum import StrEnum
 from fractions import Fraction
 
 from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.periods import RepeatedTicks
 
 
 class LaneKind(StrEnum):
@@ -97,8 +98,9 @@ class Timeline:
     """A run over time; ``clock`` is that of its trace.
 
     ``constant`` are the variables that never change and have no lane, ``quiet`` the stretches of ticks
-    (first, last) in which nothing happens but running counters.  ``wrong`` says what is false at the end, and
-    ``cause`` which inputs determine it, where that was examined.
+    (first, last) in which nothing happens but running counters, ``repeated`` those that repeat the
+    period before them.  ``wrong`` says what is false at the end, and
+    ``cause`` which inputs determine it, where that was examined; ``because`` is why, as it is written.
     """
 
     property: str
@@ -109,10 +111,12 @@ class Timeline:
     lanes: tuple[Lane, ...]
     constant: tuple[tuple[str, str], ...] = ()
     quiet: tuple[tuple[int, int], ...] = ()
+    repeated: tuple[RepeatedTicks, ...] = ()
     loop: int | None = None
     wrong: tuple[str, ...] = ()
     ending: str = ""
     cause: str = ""
+    because: str = ""
 
     def ms(self, tick: int) -> int:
         """The time at the end of a tick."""

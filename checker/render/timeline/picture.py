@@ -29,7 +29,7 @@ def picture(timeline: Timeline) -> str:
     head = _head(timeline, wide)
     top = 12 + sum(size + 5 for _, _, size in head)
     y = top + placed.height + 14
-    key = list(_legend(timeline, wide - 24))
+    key = list(_legend(placed, wide - 24))
     legend = tag("g", "".join(text for text, _ in key), transform=f"translate(12 {y})")
     y += max((bottom for _, bottom in key), default=0) + 12
     foot = []
@@ -43,7 +43,9 @@ def picture(timeline: Timeline) -> str:
         legend,
         *foot,
     ]
-    return document(wide, y + 8, sheet(PRINTED) + OWN, timeline.property or "A run", body)
+    return document(
+        wide, y + 8, sheet(PRINTED, bool(placed.axis.folds)) + OWN, timeline.property or "A run", body
+    )
 
 
 def _head(timeline: Timeline, wide: int) -> list[tuple[str, str, int]]:
@@ -82,10 +84,10 @@ def _name(row: TimelineRow, lane: Lane) -> Iterator[str]:
         yield text(LEFT - 5, row.top + row.tall - 3, low, "tl-range", text_anchor="end")
 
 
-def _legend(timeline: Timeline, wide: int) -> Iterator[tuple[str, int]]:
+def _legend(placed: PlacedLane, wide: int) -> Iterator[tuple[str, int]]:
     """What the fillings and marks mean, of those that occur, side by side; each with its bottom."""
     x = y = 0
-    for sign, meaning in signs(timeline):
+    for sign, meaning in signs(placed.timeline, bool(placed.axis.folds)):
         room = 30 + width(meaning, SMALL) + 18
         if x and x + room > wide:
             x, y = 0, y + 18
@@ -94,8 +96,8 @@ def _legend(timeline: Timeline, wide: int) -> Iterator[tuple[str, int]]:
         x += room
 
 
-def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
-    """Every sign that occurs, 24 pixels wide, and its meaning."""
+def signs(timeline: Timeline, folds: bool = True) -> Iterator[tuple[str, str]]:
+    """Every sign that occurs, 24 pixels wide, and its meaning; ``folds``: repetitions are boxes."""
     bands = {
         run.tone
         for lane in timeline.lanes
@@ -113,6 +115,9 @@ def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
     if any(lane.needed for lane in timeline.lanes):
         box = tag("rect", x=1, y=2, width=22, height=11, class_="tl-needed")
         yield box, "input that determines the end, whatever the others are"
+    if folds and timeline.repeated:
+        box = tag("rect", x=1, y=2, width=22, height=11, rx=3, class_="tl-fold")
+        yield box, "the ticks under the bracket again, so often"
     if timeline.loop is not None:
         yield tag("rect", y=2, width=24, height=11, class_="tl-loop"), "repeats for ever"
 
@@ -121,10 +126,14 @@ def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tup
     """Texts below the lanes with their class: what is false, what repeats, what never changes."""
     for wrong in timeline.wrong:
         yield wrap(f"✗ {wrong}", letters * 9 // 10, "    "), "wrong"
+    if timeline.because:
+        yield wrap(f"Why: {timeline.because}", letters, "    "), ""
     if timeline.cause:
         yield wrap(f"● {timeline.cause}", letters, "    "), ""
     if timeline.ending:
         yield wrap(timeline.ending, letters), ""
+    for fold in placed.axis.folds:
+        yield wrap(f"{fold.what[:1].upper()}{fold.what[1:]}.", letters, "    "), ""
     if timeline.constant:
         told = (f"{name} = {shown}".replace(" ", "\N{NO-BREAK SPACE}") for name, shown in timeline.constant)
         same = ", ".join(told)
@@ -134,12 +143,15 @@ def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tup
 
 def scale(timeline: Timeline, placed: PlacedLane) -> str:
     """Whether the picture is to scale, and what is left out."""
-    if not placed.axis.breaks:
+    if not (placed.axis.breaks or placed.axis.folds):
         if isinstance(timeline.clock, int):
             return f"To scale: every tick is {timeline.clock} ms; the time is that at its end."
         return "Ticks of unlike lengths are drawn alike; the time is that at the end of a tick."
     left_out = shortened(placed.axis.breaks)
-    return (
-        f"Not to scale: {left_out} of {timeline.ticks} ticks, in which only running counters change, "
-        "are shortened at the zigzag lines."
-    )
+    again = sum(fold.count for fold in placed.axis.folds)
+    told = [
+        f"{left_out} of {timeline.ticks} ticks, in which only running counters change, are shortened at the "
+        "zigzag lines" if left_out else "",
+        f"{again} of {timeline.ticks} ticks, which repeat others, are drawn as boxes" if again else "",
+    ]  # fmt: skip
+    return f"Not to scale: {'; '.join(filter(None, told))}."

@@ -1,12 +1,14 @@
 """The values of a variable over time as runs: equal values in a row, and running counters."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from rovercheck.checker.render.lanes import Tone
 from rovercheck.checker.render.limits import timer
+from rovercheck.checker.render.periods import RepeatedTicks
 from rovercheck.checker.render.story import value
-from rovercheck.checker.render.timeline.model import LaneKind, TimelineRun
+from rovercheck.checker.render.timeline.model import Lane, LaneKind, NeededTicks, TimelineRun
 from rovercheck.checker.render.timeline.tones import tone
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.domain import Num
@@ -65,3 +67,33 @@ def _reach(values: Values, first: int, step: int) -> int:
             break
         last += 1
     return last
+
+
+def outside(lane: Lane, folds: Sequence[RepeatedTicks]) -> Lane:
+    """The lane without what is in ticks that only repeat others; what reaches into them is cut there."""
+    for fold in folds:
+        spans = ((1, fold.first - 1), (fold.last + 1, lane.runs[-1].last if lane.runs else 0))
+        lane = replace(
+            lane,
+            runs=tuple(piece for run in lane.runs for span in spans for piece in _cut(run, *span)),
+            needed=tuple(
+                NeededTicks(max(need.first, low), min(need.last, high), need.condition)
+                for need in lane.needed
+                for low, high in spans
+                if need.first <= high and need.last >= low
+            ),
+            shots=tuple(shot for shot in lane.shots if not fold.first <= shot.tick <= fold.last),
+        )
+    return lane
+
+
+def _cut(run: TimelineRun, low: int, high: int) -> Iterator[TimelineRun]:
+    """The piece of a run between two ticks; that of a steady count says nothing where it does not begin."""
+    first, last = max(run.first, low), min(run.last, high)
+    if (first, last) == (run.first, run.last):
+        yield run
+    elif first <= last:
+        step = (run.high - run.low) / max(1, run.last - run.first)
+        label = run.label if first == run.first or not run.until else ""
+        ends = run.low + step * (first - run.first), run.low + step * (last - run.first)
+        yield TimelineRun(first, last, label, *ends, run.tone)

@@ -6,19 +6,20 @@ from itertools import groupby
 from markupsafe import Markup
 
 from rovercheck.checker.render.page import Part
+from rovercheck.checker.render.periods import unfolded
 from rovercheck.checker.render.reasons import cause, meaning, reasons
-from rovercheck.checker.render.story import OMITTED, rows, standstill, start_of, start_values
+from rovercheck.checker.render.story import OMITTED, standstill, start_of, start_values
 from rovercheck.checker.render.timeline.fragment import TEMPLATES, own
 from rovercheck.checker.results.trace import Trace
 
 
 def story_part(trace: Trace, *, everything: bool = False) -> Part:
-    """The table with the same rows as that of the terminal, and the reasons where they were examined."""
+    """The table with the rows of that of the terminal, repetitions to be unfolded; and reasons, if known."""
     shown = trace if everything or not trace.property.relevant else trace.focused()
     by_ticks = groupby(reasons(trace, regular=True), key=lambda reason: f"{reason.when} ({reason.ms})")
     body = TEMPLATES.get_template("story.html").render(
         chosen=start_values(shown),
-        rows=list(rows(shown)),
+        rows=list(unfolded(shown)),
         start_of=start_of,
         standstill=partial(standstill, shown),
         omitted=OMITTED,
@@ -26,4 +27,4 @@ def story_part(trace: Trace, *, everything: bool = False) -> Part:
         meaning=meaning(trace),
         reasons=[(ticks, [reason.what for reason in group]) for ticks, group in by_ticks],
     )
-    return Part(Markup(body), (own("story.css"),))
+    return Part(Markup(body), (own("story.css"),), (own("story.js"),))

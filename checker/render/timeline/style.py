@@ -43,6 +43,10 @@ paint-order:stroke;stroke:{paper};stroke-width:3px;stroke-linejoin:round}
 .tl-end{fill:none;stroke:{ink};stroke-width:2}.tl-end-text{fill:{ink};font-size:11px;font-weight:bold}
 .tl-hover{fill:none;pointer-events:all}
 """
+FOLDS = """
+.tl-fold{fill:{loop};stroke:{soft};stroke-dasharray:4 3}.tl-fold-text{fill:{ink};font-size:11px}
+.tl-bracket{stroke:{soft};fill:none}
+"""
 TONES = "".join(
     f".tl-is-{tone.value}{{fill:{{{tone.value}}};stroke:{{paper}}}}.tl-on-{tone.value}{{fill:{{on-{tone.value}}}}}"
     for tone in Tone
@@ -58,9 +62,9 @@ MEANINGS = {
 """What the fillings say, apart from their labels."""
 
 
-def sheet(colours: Mapping[str, str]) -> str:
-    """The style sheet with these colours, by their names in the template."""
-    shown = TEMPLATE + TONES
+def sheet(colours: Mapping[str, str], folds: bool = True) -> str:
+    """The style sheet with these colours, by their names in the template; ``folds`` are drawn, too."""
+    shown = TEMPLATE + TONES + (FOLDS if folds else "")
     for name, colour in colours.items():
         shown = shown.replace("{" + name + "}", colour)
     return shown.strip()

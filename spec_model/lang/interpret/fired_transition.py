@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from rovercheck.spec_model.lang.action import Action
+from rovercheck.spec_model.lang.action import Action, as_calls
 from rovercheck.spec_model.lang.chart import Path, Transition
 from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.place import Place
@@ -42,4 +42,4 @@ def segment_label(segment: Transition) -> str:
 
 
 def _listed(actions: Sequence[Action]) -> str:
-    return "; ".join(map(str, actions))
+    return "; ".join(map(str, as_calls(actions)))

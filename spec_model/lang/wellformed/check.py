@@ -16,7 +16,8 @@ from rovercheck.spec_model.lang.wellformed.words import block_word_faults, no_wo
 
 
 def check_chart(chart: Chart, tick_ms: int = TICK_MS) -> None:
-    """Raises ``ModelError`` with one line for each fault of the chart."""
+    """Raises ``ModelError`` with one line for each fault of the chart, and more below those of labels."""
+    _raise(iter(chart.label_faults))
     _raise(f"{chart.name}: {fault}" for fault in _chart_faults(chart, tick_ms))
 
 
@@ -24,6 +25,7 @@ def check_system(system: System) -> None:
     """Raises ``ModelError`` with one line for each fault of the system and of its charts."""
     if _SOUND.get(id(system)) is system:
         return
+    _raise(fault for chart in system.charts for fault in chart.label_faults)
     faults: list[str] = []
     for chart in system.charts:
         faults += [f"{chart.name}: {fault}" for fault in _chart_faults(chart, system.step_ms)]

@@ -1,0 +1,200 @@
+"""What is kept of a slice is true wherever the slice is the same: of edited systems, against a naive loop."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Open, Reached, StoredRun, Unknown
+from rovercheck.checker.store.verdicts import VerdictStore
+from rovercheck.checker.system.lowering_cache import lowered
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import SearchSettings, events
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+from tests import naive
+from tests.profiles import examples
+from tests.store.naive_engine import NaiveEngine
+from tests.store.small_systems import NAME, asked, edits, small_systems
+
+pytestmark = pytest.mark.usefixtures("no_child")
+
+CONCRETE = "Concrete"
+
+
+class TooLarge(Exception):
+    """More states than a test should look at."""
+
+
+Told = tuple[str, int | None]
+"""The word of a verdict, and the length of its run."""
+
+
+def looped(prop: Property, systems: Mapping[str, System]) -> Told:
+    """What a naive loop says of a property, without any part of the store."""
+    system = systems[prop.on]
+    whole = lowered(system)
+    question = reduce(whole, [prop])
+    goal = question.goals[0]
+    starts = [{**question.system.init, **frozen} for frozen in naive.vectors(question.system.frozen)]
+    if not any(True for at in starts for _ in naive.successors(question.system, at)):
+        return "no run", None
+    checks = [check for check, _ in question.system.checks]
+    answers = NaiveEngine().check(question.system, [goal.var, *checks], Limits(), quiet)
+    if any(isinstance(answers[check.name], Reached) for check in checks):
+        return "leaves a domain", None
+    if any(isinstance(answer, Open) for answer in answers.values()):
+        raise TooLarge
+    answer = answers[goal.var.name]
+    length = len(answer.run) if isinstance(answer, Reached) else None
+    if length is not None and system.over:
+        if not system.concrete:
+            return "unknown", None
+        return (
+            looped(replace(prop, on=system.concrete), systems) if _there(prop, systems) else ("unknown", None)
+        )
+    if length is None:
+        return "violated" if goal.reach else "proved", None
+    return "proved" if goal.reach else "violated", length
+
+
+def _there(prop: Property, systems: Mapping[str, System]) -> bool:
+    return looped(replace(prop, on=systems[prop.on].concrete), systems)[1] is not None
+
+
+@dataclass
+class Decided:
+    """What was told of properties, or the error; ``searched`` are those that an engine was asked about."""
+
+    told: dict[str, Told]
+    error: str
+    searched: int
+
+
+def decided(
+    props: Sequence[Property], systems: Mapping[str, System], store: VerdictStore | None, traces: bool = True
+) -> Decided:
+    engine = NaiveEngine()
+    heard, error = dict[str, Told](), ""
+    try:
+        for one in events(props, systems, SearchSettings(engine, Limits(), 1, store=store, traces=traces)):
+            if isinstance(one, Result):
+                heard[one.property.id] = _told(one)
+    except ModelError as wrong:
+        error = str(wrong)
+    return Decided(heard, error, len(engine.asked))
+
+
+def _told(one: Result) -> Told:
+    because = None if isinstance(one.verdict, Unknown) else one.verdict.because
+    return one.verdict.word, len(because) if isinstance(because, Trace | StoredRun) else None
+
+
+def fresh() -> VerdictStore:
+    return VerdictStore("naive")
+
+
+seen: Counter[str] = Counter()
+
+
+@settings(
+    examples(120),
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+)
+@given(st.data())
+def test_where_slices_are_equal_so_are_the_verdicts_of_a_naive_loop(
+    folder: Path, data: st.DataObject
+) -> None:
+    original = data.draw(small_systems())
+    edited = data.draw(edits(original))
+    try:
+        props = asked(original)
+        for system in (original, edited):
+            lowered(system)
+    except ModelError:
+        return
+    store = fresh()
+    for prop in data.draw(st.lists(st.sampled_from(props), min_size=2, max_size=4, unique_by=lambda p: p.id)):
+        one, two = ({NAME: system} for system in (original, edited))
+        try:
+            told = looped(prop, one), looped(prop, two)
+        except (KeyError, ModelError, TooLarge):
+            continue
+        same = store.slice(prop, one) == store.slice(prop, two)
+        seen["equal" if same else "unlike"] += 1
+        if same and "no run" not in (told[0][0], told[1][0]):
+            assert told[0] == told[1], f"{prop.id}: {told}"
+        if store.question(prop, one) == store.question(prop, two):
+            assert told[0] == told[1]
+
+
+def test_both_equal_and_unlike_slices_were_seen() -> None:
+    """The test before this one would show nothing if one of the two did not occur."""
+    assert not seen or min(seen["equal"], seen["unlike"]) > 10, seen
+
+
+@settings(
+    examples(60),
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+)
+@given(st.data())
+def test_with_what_is_kept_of_the_original_an_edit_is_decided_as_without(
+    folder: Path, data: st.DataObject
+) -> None:
+    original = data.draw(small_systems())
+    edited = data.draw(edits(original))
+    over = data.draw(st.booleans())
+    try:
+        props = data.draw(st.permutations(asked(original)))[: data.draw(st.integers(2, 4))]
+        one, two = ({NAME: system} for system in (original, edited))
+        if over:
+            one = {NAME: loose(original), CONCRETE: replace(original, name=CONCRETE)}
+            two = {NAME: loose(edited), CONCRETE: replace(edited, name=CONCRETE)}
+        for system in (*one.values(), *two.values()):
+            lowered(system)
+            props = [p for p in props if {*asked_ids(system)} >= {p.id}]
+    except ModelError:
+        return
+    if not props:
+        return
+    for entry in folder.glob("*.o"):
+        entry.unlink()
+    store = fresh()
+    before = decided(props, one, store)
+    plain, kept = decided(props, two, None), decided(props, two, store)
+    assert (kept.error == "") == (plain.error == ""), (kept, plain)
+    if not plain.error:
+        assert kept.told == plain.told
+        again = decided(props, two, store, traces=data.draw(st.booleans()))
+        definite = {id for id, told in plain.told.items() if told[0] != "unknown"}
+        assert again.told == plain.told
+        if len(definite) == len(props):
+            assert not again.searched, "what was decided is decided again"
+        assert decided(props, two, replace(store, recheck=True)).told == plain.told
+    if not before.error:
+        assert decided(props, one, store).told == before.told, "and the original is as it was"
+    seen["decided"] += 1
+    seen["reused"] += not plain.error and kept.searched < plain.searched
+
+
+def loose(system: System) -> System:
+    """The same with more runs; a violation counts if it is one of the system as it was."""
+    return replace(system, over=True, concrete=CONCRETE, assumptions=())
+
+
+def asked_ids(system: System) -> Iterator[str]:
+    return (p.id for p in asked(system))
+
+
+def test_something_was_reused() -> None:
+    assert not seen["decided"] or seen["reused"] > 3, seen
