@@ -9,7 +9,7 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.docs import run as module
 from rovercheck.checker.commands.docs.run import installed, pages, title
-from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from tests.cli.terminal import Terminal
 
 ROOT = Path(__file__).parents[2]
@@ -89,7 +89,7 @@ def test_without_a_browser_or_a_site_it_says_where_the_page_is_or_how_to_get_it(
 
 def test_an_installation_without_pages_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "__file__", str(tmp_path / "a" / "b" / "c" / "run.py"))
-    with pytest.raises(module.UsageError, match="not where they belong"):
+    with pytest.raises(UsageError, match="not where they belong"):
         installed()
 
 

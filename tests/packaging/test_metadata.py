@@ -77,7 +77,7 @@ def test_nothing_asks_an_index_for_what_it_does_not_have() -> None:
 def _invented(line: str, extras: set[str]) -> list[str]:
     """What a line takes from an index or a server that has it not."""
     found = []
-    if asked := re.search(r"\bpip3? install ((?:\S+ ?)+)", line):
+    if asked := re.search(r"\bpip3? install ((?:[^\s`]+ ?)+)", line):
         words = [w.strip("`'\"(),.;:") for w in asked[1].split()]
         for word in words:
             named = re.fullmatch(r"rovercheck(?:\[([^\]]*)\]?)?([=<>!~].*)?", word)
