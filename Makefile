@@ -1,5 +1,6 @@
 # Everything a fresh machine needs is Python >= 3.11 and make: the first `make check` or `make test`
-# makes a virtual environment in .venv and installs the locked versions of requirements.lock in it.
+# makes a virtual environment in .venv and installs locked versions in it: requirements-core.lock for what
+# checks the rover (check, check-repairs), and requirements.lock, which has all of it, for everything else.
 #
 #   PYTHON=python3.12       another interpreter
 #   VENV=.venv-3.12         another place for the environment
@@ -9,6 +10,7 @@
 VENV ?= .venv
 JOBS ?= 3
 ARGS ?=
+packages = $(shell grep -c '^[a-z0-9].*==' $(1)) packages
 NEW_ENOUGH := -c 'import sys; sys.exit(sys.version_info < (3, 11))'
 ifndef PYTHON
 PYTHON := $(or $(shell for p in python3 python3.13 python3.12 python3.11 python3.14 python; do \
@@ -19,6 +21,8 @@ RUN     := $(VENV)/bin/python
 # The stamp carries the version of the interpreter, so that another PYTHON makes a new environment.
 VERSION := $(shell "$(PYTHON)" -c 'import sys; print("%d.%d.%d" % sys.version_info[:3])' 2>/dev/null)
 STAMP   := $(VENV)/installed-for-$(VERSION)
+TOOLS   := $(VENV)/tools-for-$(VERSION)
+INSTALL := -m pip install --disable-pip-version-check
 
 .DEFAULT_GOAL := help
 .PHONY: help setup check check-full check-repairs test test-full lint types reports docs bench format lock clean
@@ -35,16 +39,17 @@ help:
 	@echo "make lint           ruff only            make types     mypy only"
 	@echo "make format         lay the code out     make bench     time the engines"
 	@echo "make lock           choose new versions of the dependencies, with hashes"
+	@echo "make setup          install all of it, and check nothing"
 	@echo "make clean          remove the environment and every cache"
 
 check: $(STAMP)
 	@$(RUN) -m rovercheck check --strict $(ARGS)
 
-docs: $(STAMP)
+docs: $(TOOLS)
 	@$(RUN) -m docs.reference
 	@NO_MKDOCS_2_WARNING=1 $(RUN) -m mkdocs build --strict --quiet
 
-check-full: $(STAMP)
+check-full: $(TOOLS)
 	@$(RUN) -m rovercheck check --strict --full --certify $(ARGS)
 
 check-repairs: $(STAMP)
@@ -60,27 +65,28 @@ test: lint types
 test-full: SUITE := --hypothesis-profile=full
 test-full: test
 
-lint: $(STAMP)
+lint: $(TOOLS)
 	@echo "Lint ..."
 	@$(RUN) -m ruff check --quiet .
 
-types: $(STAMP)
+types: $(TOOLS)
 	@echo "Types ..."
 	@$(RUN) -m mypy
 
-format: $(STAMP)
+format: $(TOOLS)
 	@$(RUN) -m ruff check --quiet --fix-only .
 	@$(RUN) -m ruff format .
 
-reports: $(STAMP)
+reports: $(TOOLS)
 	@$(RUN) -m rovercheck reports $(ARGS)
 
-bench: $(STAMP)
+bench: $(TOOLS)
 	@$(RUN) -m benchmarks.compare $(ARGS)
 
-setup: $(STAMP)
+setup: $(TOOLS)
 
-$(STAMP): requirements.lock pyproject.toml
+# pip says what it fetches and how far it is, on a terminal with a bar, in a log with a line for each package.
+$(STAMP): requirements-core.lock pyproject.toml
 	@"$(PYTHON)" $(NEW_ENOUGH) 2>/dev/null || { \
 		echo "rovercheck needs Python 3.11 or newer; '$(PYTHON)' $(if $(VERSION),is Python $(VERSION),does not run)."; \
 		echo "Install one, or name it: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; } >&2
@@ -90,18 +96,25 @@ $(STAMP): requirements.lock pyproject.toml
 	@test -x "$(RUN)" -a -n "$(wildcard $(STAMP))" || { \
 		echo "Making a virtual environment in $(VENV) (Python $(VERSION)) ..."; \
 		"$(PYTHON)" -m venv --clear "$(VENV)" && echo '*' > "$(VENV)/.gitignore"; }
-	@echo "Installing the locked dependencies; the first time this takes about half a minute ..."
-	@$(RUN) -m pip install -qq --disable-pip-version-check --require-hashes -r requirements.lock
-	@$(RUN) -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@echo "Installing what decides the properties ($(call packages,requirements-core.lock)) ..."
+	@$(RUN) $(INSTALL) --require-hashes -r requirements-core.lock
+	@$(RUN) $(INSTALL) -qq --no-deps --no-build-isolation --editable .
 	@touch "$(STAMP)"
 
+# `check` needs none of it, so that whoever only checks does not wait for it.
+$(TOOLS): requirements.lock $(STAMP)
+	@echo "Installing what tests, documents and certificates need besides ($(call packages,requirements.lock) in all) ..."
+	@$(RUN) $(INSTALL) --require-hashes -r requirements.lock
+	@touch "$(TOOLS)"
+
 # uv, in an environment of its own, resolves for every platform and every Python from 3.11 on at once.
+PIN := pip compile pyproject.toml --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \
+	--no-header --no-emit-index-url --quiet
 lock:
 	@"$(PYTHON)" -m venv "$(VENV)/lock"
 	@"$(VENV)/lock/bin/python" -m pip install -qq --disable-pip-version-check uv
-	@"$(VENV)/lock/bin/uv" pip compile pyproject.toml --group dev --universal --python-version 3.11 \
-		--fork-strategy fewest --generate-hashes --no-header --no-emit-index-url --upgrade --quiet \
-		--output-file requirements.lock
+	@"$(VENV)/lock/bin/uv" $(PIN) --group dev --upgrade --output-file requirements.lock
+	@"$(VENV)/lock/bin/uv" $(PIN) --group build --constraint requirements.lock --output-file requirements-core.lock
 
 clean:
 	rm -rf "$(VENV)" .pytest_cache .mypy_cache .ruff_cache .hypothesis build dist

@@ -22,6 +22,7 @@ from rovercheck.checker.commands.trace.formats import exit_written
 from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.explain.explanation import explained, unexplained
 from rovercheck.checker.explain.unrolled_run import OutOfTime
+from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.model import Model
 from rovercheck.checker.model import load as files
 from rovercheck.checker.model.kept_invariants import invariants_of
@@ -162,7 +163,8 @@ def check(
     ``of`` is a ``Model`` or the path of one; ``seconds`` and ``depth`` (ticks) limit each search, and what
     they cut short is unknown, never proved.  ``certify``: every proof is checked again without the engine
     that found it.  Properties that are marked as costly are decided when they are named.  Raises
-    ``ModelError`` for a model or a name without meaning, and where nothing is left to check.
+    ``ModelError`` for a model or a name without meaning, and where nothing is left to check,
+    ``ModuleNotFoundError`` for ``certify`` where the solver for that is not installed.
 
     >>> from rovercheck import Block, always, assign, check, flag, in_order, model
     >>> lamp, on = flag("lamp"), flag("on")
@@ -173,6 +175,8 @@ def check(
     """
     model = _read(of)
     properties = _chosen(model, ids)
+    if certify and not CERTIFICATES.installed:
+        raise ModuleNotFoundError(f"{CERTIFICATES.needed('certify=True')}.")
     certifying = Certification(None, True, {}, "", ()) if certify else None
     limits = Limits(depth, seconds)
     search = SearchSettings(_engine(engine), limits, None, invariants_of(model), certifying)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.certify.obligations import Obligation
 from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 
 if TYPE_CHECKING:
@@ -103,7 +104,7 @@ def solve(send: Send, scripts: Sequence[str], symbols: Sequence[Sequence[str]]) 
     try:
         import bitwuzla
     except ImportError as error:
-        return send(f"Bitwuzla cannot be imported ({error}); install it, or try --solver enumeration")
+        return send(CERTIFICATES.needed(f"this ({error})"))
     for script, wanted in zip(scripts, symbols, strict=True):
         manager, options = bitwuzla.TermManager(), bitwuzla.Options()
         options.set(bitwuzla.Option.PRODUCE_MODELS, True)

@@ -8,11 +8,11 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.util import find_spec
 from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
+from rovercheck.checker.extras import PARQUET
 from rovercheck.checker.io.files import csv_plain
 from rovercheck.checker.logs.errors import LogError, at, shortened
 from rovercheck.checker.logs.limits import (
@@ -251,8 +251,8 @@ def _rows(reader: _Reader, width: int, before: int) -> Iterator[tuple[int, list[
 
 
 def _parquet(path: Path) -> FileRows:
-    if find_spec("pyarrow") is None:
-        raise LogError("is Parquet, which pyarrow reads; install it (pip install pyarrow), or write CSV.")
+    if not PARQUET.installed:
+        raise LogError(f"is a Parquet file. {PARQUET.needed('Reading it')}. Or write CSV.")
     parquet = import_module("pyarrow.parquet")
     arrow = import_module("pyarrow")
     try:

@@ -5,6 +5,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
 
+from rovercheck.checker.extras import PLOT
 from rovercheck.checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRows, Lanes, Mark, Tone
 from rovercheck.checker.render.run_style import (
     BOTTOM,
@@ -38,20 +39,10 @@ SUFFIXES = (".svg", ".png", ".pdf")
 
 FONTS = b"'DejaVu Sans', Verdana, sans-serif"
 """For whoever looks at an SVG picture without the font with which it was laid out."""
-NEEDED = "A plot needs matplotlib; install it with: pip install matplotlib."
 
 
 class PlotError(Exception):
     """The picture cannot be drawn here; the message says what to install."""
-
-
-def available() -> bool:
-    """Whether matplotlib is installed."""
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        return False
-    return True
 
 
 def draw(lanes: Lanes, suffix: str) -> bytes:
@@ -59,8 +50,8 @@ def draw(lanes: Lanes, suffix: str) -> bytes:
 
     Raises ``PlotError`` without matplotlib.
     """
-    if not available():
-        raise PlotError(NEEDED)
+    if not PLOT.installed:
+        raise PlotError(f"{PLOT.needed('A plot')}.")
     from matplotlib import rc_context, rcdefaults, rcParams
 
     with rc_context(), catch_warnings():

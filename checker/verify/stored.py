@@ -4,13 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rovercheck.checker.certify.certificate import Certificate
-from rovercheck.checker.certify.check import CheckEffort, check
+from rovercheck.checker.certify.check import CheckEffort, CheckMethod, check
 from rovercheck.checker.certify.file import CertificateFile, CertificateOrigin, packed, unpacked
 from rovercheck.checker.certify.outcome import Accepted
 from rovercheck.checker.certify.reader import CertificateReader
 from rovercheck.checker.certify.record import rests_on_answers
 from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.engines import Limits
+from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.results.verdict import Run, StoredRun, Unknown
 from rovercheck.checker.store.verdict_json import Definite
 from rovercheck.checker.store.verdicts import StoredVerdict, VerdictStore
@@ -26,7 +27,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
-EFFORT = CheckEffort(seconds=60)
+SECONDS = 60
 """For each certificate that is checked once more: what takes longer is decided anew."""
 
 
@@ -101,10 +102,17 @@ class StoredTask:
             found: CertificateFile = unpacked(whole)
         except Malformed:
             return None
-        return CertificateReader(found.certificates, lambda one, system: check(one, system, EFFORT))
+        effort = _effort()
+        return CertificateReader(found.certificates, lambda one, system: check(one, system, effort))
 
     def _proof(self, together: Sequence[Property]) -> str | None:
         return self.store.about("proof", self.task.system, *together)
+
+
+def _effort() -> CheckEffort:
+    """Without the solver all states are tried, where that can be done."""
+    by = CheckMethod.BOTH if CERTIFICATES.installed else CheckMethod.ENUMERATION
+    return CheckEffort(by, SECONDS)
 
 
 def replayed(kept: StoredVerdict, prop: Property, systems: Mapping[str, System]) -> Definite | None:

@@ -1,4 +1,4 @@
-"""What MkDocs does besides: the reference of the command line, and files beside ``docs/``.
+"""What MkDocs does besides: the icon of the site, and files beside ``docs/``.
 
 A page links to its neighbours as they lie in the repository (``../examples/README.md``).  On the site such
 a file is a page or a download below ``project/``, and the links are rewritten.
@@ -12,7 +12,7 @@ from typing import Any
 
 from mkdocs.structure.files import File, Files
 
-from docs.reference import commands, pictures
+from docs.reference import pictures
 
 ROOT = Path(__file__).parents[2]
 PROJECT = "project/"
@@ -24,7 +24,6 @@ LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)#\s]+)(#[^)\s]*)?(?=\))")
 ROW = re.compile(r"(?m)^\|.*$")
 CODE = re.compile(r"`[^`\n]+`")
 GENERATED: dict[str, Callable[[], str]] = {
-    "reference/commands.md": commands.page,
     "pictures/icon.svg": lambda: pictures.ICON,
 }
 

@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-from docs.reference import forms, language, pictures, schemas
+from docs.reference import commands, forms, language, pictures, schemas
 
 DOCS = Path(__file__).parents[1]
 KEPT: Mapping[Path, Callable[[], str]] = {
+    DOCS / "reference/commands.md": commands.page,
     DOCS / "reference/language.md": language.page,
     DOCS / "reference/properties.md": forms.page,
     DOCS / "pictures/pump.svg": pictures.of_tutorial,

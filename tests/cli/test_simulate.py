@@ -12,7 +12,6 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.simulate.run import lanes
-from rovercheck.checker.render import run_plot
 from rovercheck.supervisor.bench import judge, loads, simulate
 from rovercheck.supervisor.bench.conditions import BOTH, CONDITIONS
 
@@ -146,9 +145,8 @@ def test_without_matplotlib_everything_else_works(
     place: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    assert not run_plot.available()
     assert run(["simulate", "cut.toml"]) == Exit.AS_EXPECTED
-    assert "No plot: A plot needs matplotlib; install it with: pip install matplotlib" in (
+    assert "No plot: A plot needs matplotlib, which is not installed: pip install 'rovercheck[plot]'." in (
         " ".join(capfd.readouterr().err.split())
     )
     assert run(["simulate", "cut.toml", "-o", "run.svg"]) == Exit.USAGE

@@ -37,6 +37,9 @@ COMMANDS = {
     "python3 -m venv .venv": INSTALLS,
     ". .venv/bin/activate": INSTALLS,
     "pip install ../rovercheck": INSTALLS,
+    ".venv/bin/pip install ../rovercheck": INSTALLS,
+    "pip install 'rovercheck[certificates]'": INSTALLS,
+    "pip install '../rovercheck[all]'": INSTALLS,
     "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
     "make test-full": MAKES,
@@ -178,6 +181,9 @@ SHOWN = {
         "tests/cli/test_accept.py reads decisions that are valid under the schema"
     ),
     ("docs/generate-tests.md", "board1"): MADE,
+    ("docs/installation.md", "docker build -t rovercheck ."): (
+        "needs Docker; tests/packaging/test_containers.py builds what the Dockerfile does, without it"
+    ),
     ("docs/inside.md", "spec_model/         properties/        a user's file"): (
         "a drawing; tests/test_architecture.py has the order of the folders"
     ),

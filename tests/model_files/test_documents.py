@@ -81,23 +81,29 @@ def test_init_writes_the_workflow_of_the_examples() -> None:
     assert (START / "workflow.yml").read_text() == (CI / "github-actions.yml").read_text()
 
 
-SCHEMAS = [("vendor.github-workflows", "github-actions.yml"), ("vendor.gitlab-ci", "gitlab-ci.yml")]
+SCHEMAS = [
+    ("vendor.github-workflows", "examples/ci/github-actions.yml"),
+    ("vendor.gitlab-ci", "examples/ci/gitlab-ci.yml"),
+    ("vendor.github-actions", "action.yml"),
+]
 
 
 @pytest.mark.parametrize(("schema", "name"), SCHEMAS)
 def test_the_files_for_ci_have_the_form_their_readers_want(schema: str, name: str) -> None:
-    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", schema, str(CI / name)]
+    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", schema, str(ROOT / name)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
 
 
-def test_the_hook_that_the_example_names_is_offered() -> None:
+def test_the_hook_of_the_example_and_the_one_that_is_offered_check_a_model() -> None:
     yaml = YAML(typ="safe")
     [hook] = yaml.load((ROOT / ".pre-commit-hooks.yaml").read_text())
     [repo] = yaml.load((CI / ".pre-commit-config.yaml").read_text())["repos"]
     [used] = repo["hooks"]
-    assert used["id"] == hook["id"]
-    assert {"name", "entry", "language"} <= hook.keys()
-    _, verb, *arguments = split(hook["entry"])
-    app.commands[verb].make_context(verb, [*arguments, *used["args"]], parent=click.Context(app))
+    assert repo["repo"] == "local" and used["id"] == hook["id"]
+    for one in (hook, used):
+        assert {"name", "entry", "language"} <= one.keys() and one["pass_filenames"] is False
+        program, verb, *arguments = split(one["entry"])
+        assert program == "rovercheck"
+        app.commands[verb].make_context(verb, arguments, parent=click.Context(app))
     assert re.search(used["files"], "heater.py") and re.search(hook["files"], "model/baseline.toml")

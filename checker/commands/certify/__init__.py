@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.options import SECONDS, gathered, modelling, quietly
 
 
@@ -42,10 +42,14 @@ def certify(paths: tuple[Path, ...], options: CertificationOptions, model: Path 
     """Check the certificates of proofs again, by other means than found them."""
     from rovercheck.checker.certify.check import CheckEffort, CheckMethod
     from rovercheck.checker.commands.certify.run import certify as run
+    from rovercheck.checker.extras import CERTIFICATES
 
+    method = CheckMethod(options.solver)
+    if method is not CheckMethod.ENUMERATION and not CERTIFICATES.installed:
+        raise UsageError(f"{CERTIFICATES.needed(f'--solver {method}')}. Or write --solver enumeration.")
     return run(
         paths,
-        CheckEffort(CheckMethod(options.solver), options.timeout),
+        CheckEffort(method, options.timeout),
         options.smt2,
         options.verbose,
         model,

@@ -6,6 +6,7 @@ from typing import Literal
 from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.doctor.run import DoctorFinding, FindingKind
+from rovercheck.checker.io.document import Count
 
 
 class FindingRow(TypedDict):
@@ -20,6 +21,8 @@ class FindingRow(TypedDict):
     """Whether rovercheck needs it to work."""
     adds: str
     """What it is for, or how to get it."""
+    bytes: Count
+    """What a package takes on the disk; `rovercheck` with all that it requires.  0 for what is no package."""
 
 
 class DoctorDocument(TypedDict):
@@ -44,6 +47,7 @@ def _row(one: DoctorFinding) -> FindingRow:
         "ok": one.ok,
         "required": one.required,
         "adds": one.adds,
+        "bytes": one.bytes,
     }
 
 

@@ -16,9 +16,11 @@ from typing import Literal
 from rich.table import Table
 from rich.text import Text
 
+from rovercheck.checker.commands.doctor.sizes import installation, shown, size
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import counted, out
 from rovercheck.checker.commands.shared.tables import laid
+from rovercheck.checker.extras import EXTRAS
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.properties.forms import Property, always
@@ -33,11 +35,9 @@ TRIAL_DEPTH = 20
 """How many ticks of its question an engine without a proof must have seen."""
 TRIAL_SECONDS = 60.0
 """What each engine may take for its question; a tenth of a second is usual."""
-"""The version of the JSON document."""
 
 REQUIRED = {
     "annotated-types": "what the fields of JSON documents hold",
-    "bitwuzla": "certificates of proofs are checked with it",
     "click": "the command line",
     "hypothesis": "random runs of compare",
     "jinja2": "HTML pages",
@@ -60,8 +60,7 @@ REQUIRED = {
 """Packages that rovercheck cannot do without, and what for."""
 
 OPTIONAL = {
-    "matplotlib": "plots of simulate: pip install matplotlib",
-    "pyarrow": "Parquet logs in check-log: pip install pyarrow",
+    **{one.package: f"{one.adds}: {one.command}" for one in EXTRAS.values()},
     "cvc5": "a third opinion on exported formulas, in our tests: pip install cvc5",
     "playwright": "pages tried in a browser, in our tests: pip install playwright",
 }
@@ -84,7 +83,8 @@ FindingKind = Literal["package", "machine", "program", "trial"]
 class DoctorFinding:
     """One thing looked at: what it is, what was found, and whether it is as needed.
 
-    ``required`` says whether rovercheck works without it, ``adds`` what it is for or how to get it.
+    ``required`` says whether rovercheck works without it, ``adds`` what it is for or how to get it,
+    ``bytes`` how much a package takes on the disk.
     """
 
     kind: FindingKind
@@ -93,6 +93,7 @@ class DoctorFinding:
     ok: bool
     required: bool
     adds: str = ""
+    bytes: int = 0
 
 
 def doctor(as_json: bool, quiet: bool = False) -> Exit:
@@ -114,6 +115,7 @@ def doctor(as_json: bool, quiet: bool = False) -> Exit:
 def findings() -> Iterator[DoctorFinding]:
     """Everything there is to look at, the quick things first."""
     yield _python()
+    yield _installation()
     yield from (_package(name, adds, True) for name, adds in REQUIRED.items())
     yield from _machine()
     yield _cache()
@@ -128,9 +130,18 @@ def _python() -> DoctorFinding:
     return DoctorFinding("package", "Python", platform.python_version(), ok, True, "3.11 or newer")
 
 
+def _installation() -> DoctorFinding:
+    try:
+        found = version("rovercheck")
+    except PackageNotFoundError:  # run from a folder of sources, beside its packages
+        return DoctorFinding("package", "rovercheck", "not installed", True, False, "run from its sources")
+    room = installation("rovercheck")
+    return DoctorFinding("package", "rovercheck", found, True, True, "with all that it requires", room)
+
+
 def _package(name: str, adds: str, required: bool) -> DoctorFinding:
     try:
-        return DoctorFinding("package", name, version(name), True, required, adds)
+        return DoctorFinding("package", name, version(name), True, required, adds, size(name))
     except PackageNotFoundError:
         there = find_spec(name) is not None
         return DoctorFinding(
@@ -315,5 +326,6 @@ def _mark(one: DoctorFinding) -> Text:
 
 def _shown(one: DoctorFinding) -> Text:
     adds = one.adds.partition(": ")[0] if one.ok else one.adds
-    told = one.found if one.kind == "trial" else f"{one.found}; {adds}"
+    room = f", {shown(one.bytes)}" if one.bytes else ""
+    told = one.found if one.kind == "trial" else f"{one.found}{room}; {adds}"
     return Text(told, style="" if one.ok else "bold red" if one.required else "yellow")

@@ -9,6 +9,7 @@ import click
 from click.shell_completion import CompletionItem
 from click.types import StringParamType
 
+from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.spec_model.lang.errors import ModelError
 
 if TYPE_CHECKING:
@@ -88,6 +89,15 @@ def _interpretations(_: click.Context) -> Iterable[str]:
     return [f"{id}={choice}" for id, one in ambiguities().items() for choice in one.choices]
 
 
+def _pages(_: click.Context) -> Iterable[str]:
+    from rovercheck.checker.commands.docs.run import installed, pages
+
+    try:
+        return pages(installed())
+    except UsageError:
+        return []
+
+
 properties = _offering(_properties)
 systems = _offering(_systems)
 drawn = _offering(_drawn)
@@ -96,6 +106,7 @@ graph_formats = _offering(_formats("graph"))
 engines = _offering(_engines)
 repairs = _offering(_repairs)
 interpretations = _offering(_interpretations)
+pages = _offering(_pages)
 
 BY_NAME: dict[str, Completing] = {
     "ids": properties, "id": properties, "traced": properties, "bad": properties, "system": systems,
@@ -105,6 +116,7 @@ BY_NAME: dict[str, Completing] = {
 IN_VERB: dict[tuple[str, str], Completing] = {
     ("trace", "format"): trace_formats, ("graph", "format"): graph_formats, ("graph", "trace"): properties,
     ("graph", "name"): drawn, ("explore", "name"): drawn,
+    ("docs", "page"): pages,
 }  # fmt: skip
 """What it means in one verb only."""
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.variant import Variant
@@ -29,7 +30,12 @@ def askable(variant: Variant, properties: Sequence[Property]) -> list[Property]:
 
 
 def certifying(variant: Variant, folder: Path | None, again: bool) -> "Certification":
-    """What to do with the proofs, with a note of how the charts are changed."""
+    """What to do with the proofs, with a note of how the charts are changed.
+
+    Raises ``UsageError`` where they are to be checked again and the solver for that is not installed.
+    """
+    if again and not CERTIFICATES.installed:
+        raise UsageError(f"{CERTIFICATES.needed('--certify')}.")
     from rovercheck.checker.verify.certificates import Certification
 
     repair = variant.repair.name if variant.repair else ""

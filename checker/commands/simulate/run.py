@@ -14,6 +14,7 @@ from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.silence import silent
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.simulate.story import heading, story, traffic, verdicts
+from rovercheck.checker.extras import PLOT
 from rovercheck.checker.io.files import replaced
 from rovercheck.checker.render.lanes import (
     Band,
@@ -26,7 +27,7 @@ from rovercheck.checker.render.lanes import (
     Mark,
     Tone,
 )
-from rovercheck.checker.render.run_plot import NEEDED, SUFFIXES, PlotError, available, draw
+from rovercheck.checker.render.run_plot import SUFFIXES, PlotError, draw
 from rovercheck.supervisor import bench
 from rovercheck.supervisor.bench import Outcome, Record, Scenario, ScenarioError, judge, loads
 from rovercheck.supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
@@ -230,8 +231,8 @@ def _suffix(output: Path | None) -> str:
         raise UsageError(
             f"{whole(output)}: {suffix or 'a name without suffix'!r} is no format; write one of {known}."
         )
-    if not available():
-        raise UsageError(f"{whole(output)}: {NEEDED} Or write --no-plot.")
+    if not PLOT.installed:
+        raise UsageError(f"{whole(output)}: {PLOT.needed('A plot')}. Or write --no-plot.")
     return suffix
 
 
