@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from rovercheck.properties.expected import Expected, on_record
 from rovercheck.properties.forms import Property, formulas
+from rovercheck.properties.hazards import hazards
 from rovercheck.properties.requirements import requirement
 from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.lang.errors import ModelError
@@ -109,7 +110,7 @@ def baseline() -> dict[str, Expected]:
     Raises ``ModelError`` for an entry that names no property or has no reason.
     """
     table = tomllib.loads((Path(__file__).parent / "baseline.toml").read_text(encoding="utf-8"))
-    return on_record(table, catalogue(), "baseline.toml")
+    return on_record(table, catalogue(), "baseline.toml", hazards())
 
 
 def expected(id: str) -> Expected:

@@ -126,3 +126,13 @@ def merged(found: Iterable[System]) -> dict[str, System]:
 def charts(choices: Mapping[str, str] = AS_READ) -> dict[str, Chart]:
     """Every chart by name, as drawn under chosen interpretations."""
     return charts_of(systems(choices))
+
+
+@cache
+def left_to_read(name: str) -> System:
+    """A system with every interpretation open, each a frozen variable; other choices are not excluded.
+
+    It is for asking what depends on an interpretation, not for runs.  Raises ``KeyError`` for an unknown one.
+    """
+    system = woven(_systems(()).declared(name))
+    return replace(system, frozen=(*system.frozen, *(one.var for one in ambiguities().values())))

@@ -60,7 +60,7 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
     assert len(verdicts) == len(affordable)
     every = [told(c, systems()) for c in verdicts]
     assert [line(one) for one in every if one.exit is not Exit.AS_EXPECTED] == []
-    guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
+    guide = Guide(order=order_of(rover()), causes="reports/README.md")
     summary(every, guide)
     said = capsys.readouterr().out.splitlines()
     cases_and_faults = [*about_cases(every), *about_faults(every)]

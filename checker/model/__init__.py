@@ -11,6 +11,7 @@ from shlex import quote
 
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property
+from rovercheck.properties.hazards import Hazard
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
@@ -24,7 +25,8 @@ class Model:
     """Systems and properties by name; ``on_record`` holds the verdicts expected not to be "proved".
 
     ``path`` is where a user's own model was read from, None for the rover.  ``first`` are the requirements
-    whose violation is gravest; the others follow in the order of the register.
+    whose violation is gravest; the others follow in the order of the register.  ``hazards`` say what may come
+    of breaking them, the gravest first.
     """
 
     systems: Mapping[str, System]
@@ -33,6 +35,7 @@ class Model:
     requirements: Mapping[str, Requirement] = field(default_factory=dict)
     path: Path | None = None
     first: tuple[str, ...] = ()
+    hazards: Mapping[str, Hazard] = field(default_factory=dict)
 
     @property
     def by_gravity(self) -> tuple[str, ...]:

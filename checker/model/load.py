@@ -16,9 +16,10 @@ from rovercheck.checker.model.checks import (
 )
 from rovercheck.checker.model.execute import files_of, modules_of
 from rovercheck.checker.model.kinds import kind_faults
-from rovercheck.checker.model.records import REGISTER, recorded, register
+from rovercheck.checker.model.records import REGISTER, hazards_of, recorded, register
 from rovercheck.checker.model.texts import one_line, text_faults
 from rovercheck.properties.forms import Property
+from rovercheck.properties.hazards import Hazard
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
@@ -31,21 +32,24 @@ def load(path: Path) -> Model:
     Every ``System``, ``Chart`` and ``Property`` at the level of a module, in tuples and lists too, is part
     of it.  A chart that is in no system becomes one of its own, with free inputs and its name.  Verdicts on
     record are read from ``baseline.toml`` beside it, requirements from ``requirements.toml`` or a mapping
-    ``REQUIREMENTS``.  Raises ``ModelError`` for what has no meaning, with a line for each fault; only a thing
-    that is faulty already, or what it is about, is not looked at further.
+    ``REQUIREMENTS``, hazards from ``hazards.toml``.  Raises ``ModelError`` for what has no meaning, with a
+    line for each fault; only a thing that is faulty already, or what it is about, is not looked at further.
     """
     files = files_of(path)
     neighbours, modules, faults = modules_of(files)
     found = _Found([(file, vars(module).values()) for file, module in modules], faults)
     found.take_all()
-    on_record, requirements = {}, dict[str, Requirement]()
+    on_record, requirements, hazards = {}, dict[str, Requirement](), dict[str, Hazard]()
     if found.whole:
+        folder = files[0].parent
         with _gathered(faults):
-            on_record = recorded(path, found.ids)
-        with _gathered(faults):
-            beside = files[0].parent / f"{REGISTER.lower()}.toml"
+            beside = folder / f"{REGISTER.lower()}.toml"
             requirements, wrong = register(modules, beside, found.properties.values())
             faults += wrong
+        with _gathered(faults):
+            hazards = hazards_of(folder, requirements)
+        with _gathered(faults):
+            on_record = recorded(path, found.ids, hazards)
     if faults:
         raise ModelError("\n".join(dict.fromkeys(faults)))
     if not found.systems:
@@ -54,7 +58,7 @@ def load(path: Path) -> Model:
             f"Write `name = Chart(...)` there; {EXAMPLE}"
         )
     check_portable((found.systems, found.properties), neighbours.package, path)
-    return Model(found.systems, found.properties, on_record, requirements, path)
+    return Model(found.systems, found.properties, on_record, requirements, path, hazards=hazards)
 
 
 def model(*things: Chart | System | Property) -> Model:

@@ -1,4 +1,4 @@
-"""The tables beside a user's model: the expected verdicts, and the requirements that are covered."""
+"""The tables beside a user's model: expected verdicts, the requirements that are covered, and hazards."""
 
 import ast
 import tomllib
@@ -12,6 +12,7 @@ from rovercheck.checker.io.toml_lines import line_of
 from rovercheck.checker.model import shown
 from rovercheck.properties.expected import Expected, on_record
 from rovercheck.properties.forms import Property
+from rovercheck.properties.hazards import Hazard, hazards_in
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.place import Place
@@ -28,10 +29,19 @@ def baseline_of(path: Path) -> Path:
     return own if own.exists() else path.with_name("baseline.toml")
 
 
-def recorded(path: Path, known: Collection[str]) -> dict[str, Expected]:
+def recorded(path: Path, known: Collection[str], hazards: Collection[str] = ()) -> dict[str, Expected]:
     """The expected verdicts beside a model, none if there is no such file.  Raises ``ModelError``."""
     file = baseline_of(path)
-    return on_record(_table(file), known, shown(file)) if file.exists() else {}
+    return on_record(_table(file), known, shown(file), hazards) if file.exists() else {}
+
+
+def hazards_of(folder: Path, known: Collection[str]) -> dict[str, Hazard]:
+    """The hazards beside a model with the requirements ``known``, none if there is no ``hazards.toml``.
+
+    Raises ``ModelError`` for what it says that has no meaning.
+    """
+    file = folder / "hazards.toml"
+    return hazards_in(_table(file), known, shown(file)) if file.exists() else {}
 
 
 def register(

@@ -5,6 +5,7 @@ from functools import cache
 
 from rovercheck.checker.model import Model
 from rovercheck.properties.catalogue import baseline, under
+from rovercheck.properties.hazards import hazards
 from rovercheck.properties.requirements import PROMISES, requirements
 from rovercheck.spec_model.rover import AS_READ, systems
 
@@ -20,4 +21,6 @@ def rover(choices: Mapping[str, str] = AS_READ) -> Model:
 @cache
 def _rover(chosen: tuple[tuple[str, str], ...]) -> Model:
     choices = dict(chosen)
-    return Model(systems(choices), under(choices), baseline(), requirements(), first=PROMISES)
+    return Model(
+        systems(choices), under(choices), baseline(), requirements(), first=PROMISES, hazards=hazards()
+    )

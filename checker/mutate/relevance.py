@@ -5,10 +5,9 @@ from dataclasses import dataclass, replace
 
 from rovercheck.checker.mutate.product import same
 from rovercheck.checker.mutate.wiring import written_by
+from rovercheck.checker.system.cone import depends_on
 from rovercheck.checker.system.lowering_cache import lowered
-from rovercheck.checker.system.slice import sliced
 from rovercheck.properties.forms import Property
-from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.action import writes
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.system import System, TransitionSystem
@@ -35,12 +34,6 @@ def changed(
     for prop in properties:
         if not same(depends_on(original, prop), depends_on(mutant, prop)):
             yield prop
-
-
-def depends_on(system: TransitionSystem, prop: Property) -> TransitionSystem:
-    """The slice that the verdict on a property rests on, its monitor included."""
-    question = reduce(system, [prop])
-    return sliced(question.system, [v for goal in question.goals for v in (goal.var, *goal.recurs)])
 
 
 def cones(system: System, properties: Sequence[Property]) -> list[Cone]:

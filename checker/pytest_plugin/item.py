@@ -16,6 +16,7 @@ from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.properties.forms import Property
 
 # --- what the report of a property says ----------------------------------------------------------------
@@ -23,7 +24,8 @@ from rovercheck.properties.forms import Property
 
 def on_record(compared: CheckedProperty) -> str:
     """One line on a verdict that is no proof and was expected."""
-    prop, because = compared.result.property, compared.expected.because
+    prop, entry = compared.result.property, compared.expected
+    because = entry.because or (entry.accepted.because if entry.accepted else "")
     return f"{prop.id} is {compared.verdict.word}, as expected: {because}"
 
 
@@ -50,7 +52,7 @@ def _with_reasons(compared: CheckedProperty, model: Model) -> CheckedProperty:
 
 def _why(compared: CheckedProperty, model: Model) -> str:
     """A verdict that is not the expected one: what it rests on, and what to do."""
-    found = finding(compared, model.systems, model.options)
+    found = finding(compared, order_of(model), model.options)
     lines = [found.headline, explained(found)]
     if compared.expected.because:
         lines += ["", f"Expected because: {compared.expected.because}"]
@@ -85,6 +87,8 @@ class PropertyItem(pytest.Item):
             raise VerdictMismatch(shown(compared, self.model))
         if compared.verdict.word != "proved":
             self.add_report_section("call", "verdict", on_record(compared))
+        if compared.lapsed is not None:
+            self.warn(pytest.PytestWarning(f"{self.prop.id} was accepted only {compared.lapsed.term}"))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """What there is to read instead of a traceback of ours."""

@@ -9,7 +9,7 @@ from rovercheck.checker.results.exit_code import Exit
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, StoredRun, Unknown, Verdict, Violated
 from rovercheck.checker.verify.result import Result
-from rovercheck.properties.expected import Expected
+from rovercheck.properties.expected import Acceptance, Expected
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class CheckedProperty:
 
     ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
     notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough, nor
-    one that notices no known fault.
+    one that notices no known fault, nor a finding that is no longer accepted.
     """
 
     result: Result
@@ -58,6 +58,11 @@ class CheckedProperty:
         return self.noticed is False and not self.expected.no_fault
 
     @property
+    def lapsed(self) -> Acceptance | None:
+        """The acceptance of a finding that is as expected, if its time is over."""
+        return self.expected.expired if self.as_expected and not self.variant else None
+
+    @property
     def as_expected(self) -> bool:
         """Same verdict, and for a recorded counterexample the same length."""
         if self.verdict.word != self.expected.verdict:
@@ -79,6 +84,8 @@ class CheckedProperty:
             return Exit.FAILED if self.empty else Exit.INCONCLUSIVE
         if self.strict and self.idle and not self.variant:
             return Exit.INCONCLUSIVE
+        if self.strict and self.lapsed is not None:
+            return Exit.FAILED
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.FAILED

@@ -10,6 +10,7 @@ from pydantic import ConfigDict, TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
 from rovercheck import checker
+from rovercheck.checker.commands.accept.document import DecisionsDocument
 from rovercheck.checker.commands.certify.document import CertifyDocument
 from rovercheck.checker.commands.check.document import CheckDocument
 from rovercheck.checker.commands.check_log.document import CheckLogDocument
@@ -28,6 +29,7 @@ DOCUMENTS: Mapping[str, Any] = {
     "check-1": CheckDocument,
     "conform-1": CheckLogDocument,
     "crosscheck-1": CompareDocument,
+    "decisions-1": DecisionsDocument,
     "diff-1": DiffDocument,
     "doctor-1": DoctorDocument,
     "graph-2": GraphDocument,

@@ -36,7 +36,9 @@ PB2_28a = always(
     covers=["B1-IN-03"], on=LONG, from_tick=2,
 )  # fmt: skip
 PB2_28b = until(
-    "PB2-28b", "After such a window the motion is inconsistent until the end of one that differs by less.",
+    "PB2-28b",
+    "After a long window that ends with a difference of 5° or more the motion is inconsistent until the end "
+    "of one that differs by less.",
     start=long_ends & differs, holds=incoherent, release=long_ends & ~differs,
     covers=["B1-IN-03"], on=BLOCKED, from_tick=2,
 )  # fmt: skip

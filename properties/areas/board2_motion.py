@@ -66,35 +66,55 @@ PB2_13a0 = always(
     that=implies(obstacle, v_ref == 0),
     covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
 )  # fmt: skip
-PB2_13a1 = _stops("a-1", "The same for an obstacle in two successive steps.", obstacle, 1 * tick, v_ref == 0)
+PB2_13a1 = _stops(
+    "a-1",
+    "While Board 2 drives, with an obstacle within 300 cm in two successive steps the linear reference is "
+    "zero in the second.",
+    obstacle, 1 * tick, v_ref == 0,
+)  # fmt: skip
 PB2_13a2 = _stops(
-    "a-2", "The same for an obstacle in three successive steps.", obstacle, 2 * ticks, v_ref == 0
-)
+    "a-2",
+    "While Board 2 drives, with an obstacle within 300 cm in three successive steps the linear reference is "
+    "zero in the third.",
+    obstacle, 2 * ticks, v_ref == 0,
+)  # fmt: skip
 PB2_13b0 = always(
-    "PB2-13b-0", "An obstacle within 300 cm makes the linear reference zero at once, stick forward.",
+    "PB2-13b-0",
+    "While Board 2 drives with the stick forward, an obstacle within 300 cm makes the linear reference zero "
+    "at once.",
     that=implies(obstacle & forward, v_ref == 0),
     covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
 )  # fmt: skip
 PB2_13b1 = _stops(
-    "b-1", "The same for an obstacle in two successive steps.", obstacle & forward, 1 * tick, v_ref == 0
-)
+    "b-1",
+    "While Board 2 drives with the stick forward, with an obstacle within 300 cm in two successive steps the "
+    "linear reference is zero in the second.",
+    obstacle & forward, 1 * tick, v_ref == 0,
+)  # fmt: skip
 PB2_13b2 = _stops(
-    "b-2", "The same for an obstacle in three successive steps.", obstacle & forward, 2 * ticks, v_ref == 0
-)
+    "b-2",
+    "While Board 2 drives with the stick forward, with an obstacle within 300 cm in three successive steps "
+    "the linear reference is zero in the third.",
+    obstacle & forward, 2 * ticks, v_ref == 0,
+)  # fmt: skip
 PB2_13c0 = always(
-    "PB2-13c-0", "An obstacle within 300 cm makes the angular reference zero at once, stick forward.",
+    "PB2-13c-0",
+    "While Board 2 drives with the stick forward, an obstacle within 300 cm makes the angular reference zero "
+    "at once.",
     that=implies(obstacle & forward, omega_ref == 0),
     covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
 )  # fmt: skip
 PB2_13c2 = _stops(
     "c-2",
-    "The same for an obstacle in three successive steps.",
-    obstacle & forward,
-    2 * ticks,
-    omega_ref == 0,
-)
+    "While Board 2 drives with the stick forward, with an obstacle within 300 cm in three successive steps "
+    "the angular reference is zero in the third.",
+    obstacle & forward, 2 * ticks, omega_ref == 0,
+)  # fmt: skip
 PB2_13c3 = _stops(
-    "c-3", "The same for any user command.", obstacle, 2 * ticks, omega_ref == 0
+    "c-3",
+    "While Board 2 drives, with an obstacle within 300 cm in three successive steps the angular reference is "
+    "zero in the third, whatever the user commands.",
+    obstacle, 2 * ticks, omega_ref == 0,
 )  # fmt: skip
 PB2_13d1 = _stops(
     "d-1", "Stick forward and no 180° rotation: both references are zero in the second of two steps.",

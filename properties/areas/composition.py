@@ -41,12 +41,13 @@ PSY_01c = always(
     covers=["B1-REL-01", "B1-REL-03", "B1-REL-05"], on="motors", interpretations=["S47"],
 )  # fmt: skip
 PSY_02a = never(
-    "PSY-02a", "Board 1 actuates and Board 2 is authorised in one step.",
+    "PSY-02a", "In no step does Board 1 actuate while Board 2 is authorised.",
     that=drive1 & drive2,
     covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PSY_02b = never(
-    "PSY-02b", "Board 1 actuates and Board 2 is authorised in four steps in a row in which no frame is lost.",
+    "PSY-02b",
+    "In no four steps in a row in which no frame is lost does Board 1 actuate while Board 2 is authorised.",
     that=held(drive1 & drive2 & b1.rx_update & b2.rx_update, for_=3 * ticks),
     covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
@@ -106,12 +107,12 @@ PSY_15 = holds_after(
     covers=["B1-REF-05", "B1-REF-07"], on="rover_plain", from_tick=2, interpretations=["S55"],
 )  # fmt: skip
 PSY_17a = never(
-    "PSY-17a", "A non-zero speed reaches the motors before Board 2 has read the IMU once.",
+    "PSY-17a", "No speed but zero reaches the motors before Board 2 has read the IMU once.",
     that=~motors_zero & ~once(b2.imu_update),
     covers=["B2-FLT-01"], on="rover_no_loss", interpretations=[],
 )  # fmt: skip
 PSY_17b = costly(never(
-    "PSY-17b", "A non-zero speed reaches the motors before Board 2 has read the joystick once.",
+    "PSY-17b", "No speed but zero reaches the motors before Board 2 has read the joystick once.",
     that=~motors_zero & ~once(b2.ble_update),
     covers=["B1-REF-02"], on="rover_no_loss", interpretations=[],
 ))  # fmt: skip
@@ -121,7 +122,7 @@ PSY_20a = always(
     covers=["B1-IN-01"], on="obstacles_free", interpretations=["E04", "E31"],
 )  # fmt: skip
 PSY_20b = never(
-    "PSY-20b", "Board 1 avoids: Evita_sinistra or Evita_destra is active.",
+    "PSY-20b", "Board 1 never avoids: neither Evita_sinistra nor Evita_destra is active.",
     that=motion_supervision.active("Evita_sinistra", "Evita_destra"),
     covers=["B1-IN-01"], on="references_commanded", interpretations=["E04", "E31"],
 )  # fmt: skip

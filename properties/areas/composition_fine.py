@@ -96,7 +96,9 @@ PSY_10e = holds_after(
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", interpretations=["E12"],
 )  # fmt: skip
 PSY_10f = holds_after(
-    "PSY-10f", "The same within 81 ms.",
+    "PSY-10f",
+    "Within 81 ms of a sonar snapshot with an obstacle at 70 cm or less, constant, the linear reference "
+    "is not positive, if Board 1 actuates, the user drives forward and no rotation is active meanwhile.",
     premise=near & forward, for_=81 * ms, then=~v_positive,
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", interpretations=["E12"],
 )  # fmt: skip

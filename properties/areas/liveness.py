@@ -19,7 +19,9 @@ PB1_25 = settles(
 )  # fmt: skip
 
 PB1_25_turned = settles(
-    "PB1-25-turned", "The same if every 180° rotation ends.",
+    "PB1-25-turned",
+    "If every 180° rotation ends, with no critical cause, CMD_NORMAL and wheels at rest for good, Board 1 "
+    "resumes for good.",
     premise=calm, then=resumed, fair=[~is_rotating180],
     covers=RESUMES, on="references_executed", interpretations=["S62"],
 )  # fmt: skip

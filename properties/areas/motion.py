@@ -83,7 +83,9 @@ PB1_25a = holds_after(
     covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB1_25b = holds_after(
-    "PB1-25b", "The same for a rover that is not in a 180° rotation.",
+    "PB1-25b",
+    "After 53 executed steps without critical cause, with CMD_NORMAL, wheels at rest and no 180° rotation, "
+    "Board 1 resumes.",
     premise=calm & ~is_rotating180, for_=52 * ticks, then=resumed,
     covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
@@ -130,7 +132,7 @@ PB1_26e = always(
     covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB1_26f = always(
-    "PB1-26f", "The same for a degraded rover, which is to turn the shorter way at 45° and less.",
+    "PB1-26f", "In a 180° rotation, at 45° and less, the degraded rover turns the shorter way.",
     that=implies(
         still & (rover_safety_state == "SAFETY_DEGRADED") & (absolute(angle_err) <= 45) & (angle_err != 0),
         shorter_way,

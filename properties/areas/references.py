@@ -128,12 +128,16 @@ PB1_21a = always(
     covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_21b = always(
-    "PB1-21b", "The same for a forward command.",
+    "PB1-21b",
+    "Without anomaly and with CMD_NORMAL for two steps, the references are the user's commands while the "
+    "stick is forward.",
     that=implies(previous(nominal) & nominal & (y_norm > 0), as_commanded),
     covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_21c = always(
-    "PB1-21c", "The same in backward mode.",
+    "PB1-21c",
+    "Without anomaly and with CMD_NORMAL for two steps, the references are the user's commands in backward "
+    "mode.",
     that=implies(previous(nominal) & nominal & backward_enabled, as_commanded),
     covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip

@@ -18,6 +18,7 @@ from rovercheck.checker.render.ci import FindingLevel
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.expected import Expected
@@ -180,7 +181,7 @@ def test_a_finding_of_changed_charts_says_so() -> None:
     compared = CheckedProperty(
         result("PB1-11", Violated(trace(), "bmc")), expected("PB1-11"), "with repair X"
     )
-    found = finding(compared, systems(), "--repair X")
+    found = finding(compared, FindingOrder(systems=systems()), "--repair X")
     assert found.headline == "PB1-11 is violated with repair X; as specified it is proved"
     assert found.shown_with == "rovercheck trace PB1-11 --repair X"
     assert found.details == {"engine": "bmc", "ticks": "8"}

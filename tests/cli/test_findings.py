@@ -15,6 +15,7 @@ from rovercheck.checker.commands.shared.text_wrap import plain
 from rovercheck.checker.commands.shared.told import ToldVerdict, told
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
@@ -96,7 +97,7 @@ def test_the_gravest_finding_of_each_requirement_comes_first() -> None:
 
 def test_no_finding_is_left_out_without_a_word() -> None:
     found = [broken(f"D-{n}", f"R-{n}") for n in range(SHOWN + 3)]
-    guide = Guide(gravest=[f"R-{n}" for n in range(SHOWN + 3)], causes="causes.md")
+    guide = Guide(order=FindingOrder({}, [f"R-{n}" for n in range(SHOWN + 3)]), causes="causes.md")
     blank, head, *lines = read_on([*found, REACHED], guide)
     assert blank == "" and head.endswith(f"({SHOWN} of {SHOWN + 3}):")
     assert lines[:SHOWN] == [f"  D-{n}, toy: D-{n} is kept." for n in range(SHOWN)]

@@ -22,6 +22,7 @@ from rovercheck.checker.results.verdict import Unknown, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.rover import systems
 from tests.render.test_page import Reader
 from tests.render.zoo import long_trace
@@ -163,15 +164,10 @@ def test_of_a_case_that_nobody_reproduced_the_limits_are_not_listed() -> None:
     assert premise_case(gave_up, {}).said == "not known: gave up"
 
 
-def test_the_reason_of_another_finding_is_followed_to_the_first() -> None:
-    reasons = {
-        "A-1": "The transition.",
-        "A-2b": "As A-1: again.",
-        "A-3": "As A-2b.",
-        "A-4": "As Z-9.",
-        "A-5": "As A-5.",
-    }
-    assert [cause(id, reasons) for id in reasons] == ["A-1", "A-1", "A-1", "A-4", "A-5"]
+def test_the_finding_with_the_same_cause_is_followed_to_the_first() -> None:
+    said = {"A-1": "", "A-2b": "A-1", "A-3": "A-2b", "A-4": "A-5", "A-5": "A-4"}
+    known = {id: Expected("violated", because="So.", same_cause=of) for id, of in said.items()}
+    assert [cause(id, known) for id in (*known, "B-1")] == ["A-1", "A-1", "A-1", "A-5", "A-4", "B-1"]
 
 
 def test_a_model_of_the_user_gets_the_same_page(tmp_path: Path) -> None:

@@ -10,7 +10,8 @@ from jsonschema import validate
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.report.causes import with_reasons
-from rovercheck.checker.commands.reports.run import CAUSE, NOT_ASKED, differences, pages_of_verdicts
+from rovercheck.checker.commands.reports.finding import CAUSE, NOT_ASKED
+from rovercheck.checker.commands.reports.run import differences, pages_of_verdicts
 from rovercheck.checker.commands.requirements.run import (
     DECIDED,
     EXPECTED,

@@ -27,6 +27,7 @@ PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some o
 FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
 
 CHECKED = "rovercheck check --model heater.py"
+ACCEPTS = 'rovercheck accept HEAT-3 --model heater.py --because "The valve comes." --owner "A. Rossi"'
 
 COMMANDS = {
     "mkdir tank": INSTALLS,
@@ -38,6 +39,9 @@ COMMANDS = {
     "make test": MAKES,
     "make test-full": MAKES,
     "make check-full": MAKES,
+    f"{ACCEPTS} --until 2027-03-31": Instead(
+        "the day will be over; tests/cli/test_accept.py names one that is not", ACCEPTS
+    ),
     "rovercheck compare": CROSSCHECKS,
     "rovercheck compare --system board1 --impl python:mine.py:Board1": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
@@ -139,6 +143,7 @@ COMMANDS = {
 
 BEFORE = {
     "docs/ci.md": ["rovercheck init heater", "cd heater"],
+    "docs/findings.md": ["rovercheck init heater", "cd heater"],
 }
 """What a page takes for granted, done before its first command."""
 
@@ -154,6 +159,9 @@ SHOWN = {
         "docs/certificates.md",
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
+    ("docs/findings.md", '{"schema": "rovercheck/decisions/1",'): (
+        "tests/cli/test_accept.py reads decisions that are valid under the schema"
+    ),
     ("docs/generate-tests.md", "board1"): MADE,
     ("docs/inside.md", "spec_model/         properties/        a user's file"): (
         "a drawing; tests/test_architecture.py has the order of the folders"

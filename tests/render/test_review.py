@@ -13,6 +13,7 @@ import pytest
 
 from rovercheck.checker.render.review import grouped, render, title_of
 from rovercheck.checker.render.review.fragments import TOGETHER, PackedFragments
+from rovercheck.checker.render.review.model import HazardRow
 from rovercheck.checker.render.review.traces import shared
 from tests.render.test_page import Reader
 from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, GRAPH, OPEN, RUN, SAME, checked, review
@@ -67,12 +68,46 @@ def test_nothing_is_fetched(page: Reader, document: str) -> None:
 
 
 def test_findings_come_first_and_with_the_same_cause_together() -> None:
-    groups = grouped(review().findings)
-    assert groups == [
-        ("Not as expected", [("", [CHANGED])]),
-        ("Relay", [("T-1", [BROKEN, SAME])]),
-        ("Link", [("T-4", [OPEN])]),
+    assert grouped(review().findings, {}) == [
+        ("Not as expected", "", [("", [CHANGED])]),
+        ("Relay", "", [("T-1", [BROKEN, SAME])]),
+        ("Link", "", [("T-4", [OPEN])]),
     ]
+
+
+def test_findings_are_grouped_by_hazard_the_gravest_first() -> None:
+    worse, small = replace(OPEN, hazard="H-1", place=0), replace(BROKEN, hazard="H-2", place=1)
+    nothing = replace(SAME, place=2)
+    hazards = {
+        "H-1": HazardRow("H-1", "It bites.", "critical", "§1 says so."),
+        "H-2": HazardRow("H-2", EVIL, "negligible", EVIL),
+    }
+    one = replace(review((small, nothing, worse)), hazards=hazards)
+    groups = grouped(one.findings, hazards)
+    assert [(g.title, g.says, [p.id for _, of in g.causes for p in of]) for g in groups] == [
+        ("Critical: It bites.", "H-1, critical. §1 says so.", ["T-4"]),
+        (f"Negligible: {EVIL}", f"H-2, negligible. {EVIL}", ["T-1"]),
+        ("Unrated", "No hazard names what is broken.", ["T-2"]),
+    ]
+    shown = render(one)
+    assert shown.index("Critical: It bites.") < shown.index("Unrated") and "<script>document" not in shown
+
+
+def test_a_finding_stands_alone() -> None:
+    told = replace(
+        BROKEN, effect=f"It bites {EVIL}", since="2026-03-01",
+        decision=f"accepted by {EVIL} until 2026-04-01",
+        lapsed=True, hazard="H-1", assumptions=("A1",),
+    )  # fmt: skip
+    hazard = HazardRow("H-1", "Teeth.", "critical", "§1 says so.")
+    shown = render(replace(review((told,)), hazards={"H-1": hazard}))
+    start = shown.index('id="T-1"')
+    section = shown[start : shown.index("</details>", start)]
+    wanted = ["What goes wrong", "How bad", "Cause", "Known since", "Decision", "Demanded", "Depends on"]
+    places = [section.index(f"<dt>{name}</dt>") for name in wanted]
+    assert places == sorted(places)
+    assert "It bites &lt;/script&gt;" in section and "#assumption-A1" in section and "2026-03-01" in section
+    assert "<script>document" not in shown
 
 
 def test_of_a_finding_the_story_is_there_to_read_without_scripts(document: str) -> None:

@@ -79,7 +79,8 @@ class CheckOptions:
 @click.option(
     "--strict",
     is_flag=True,
-    help="Treat as errors: proofs that are or may be vacuous, and proofs that kill no known mutant.",
+    help="Treat as errors: proofs that are or may be vacuous, proofs that kill no known mutant, and findings "
+    "whose acceptance has expired.",
 )
 @click.option("--no-premises", is_flag=True, help="Do not check whether the premises of proofs occur.")
 @click.option(
@@ -177,6 +178,7 @@ def check(
         from rovercheck.checker.commands.check.run import check as run
         from rovercheck.checker.commands.check.text import brief
         from rovercheck.checker.commands.shared.variant import askable
+        from rovercheck.checker.verify.finding_order import order_of
 
         variant = charts.variant()
         properties = selection.properties(variant)
@@ -195,7 +197,8 @@ def check(
         if variant.name:
             properties = askable(variant, properties)
         settings = _settings(search, options, variant)
-        guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
+        order = order_of(variant.model, variant.systems())
+        guide = Guide(variant.options, selection.again, order, causes(variant))
         deliver = _delivering(options, variant)
         further = _further(options, variant, settings, chains)
         return run(
@@ -265,12 +268,13 @@ def _unchanged(kept: "ToldStore", selection: SelectionOptions, options: CheckOpt
     from rovercheck.checker.commands.check.findings import Guide, causes_of_rover
     from rovercheck.checker.commands.check.text import CheckText, brief
     from rovercheck.checker.commands.shared.told import worst
+    from rovercheck.checker.verify.finding_order import FindingOrder
 
     told = [replace(one, strict=options.strict) for one in chosen]
     text = CheckText(
         options.as_json,
         options.quiet,
-        Guide("", selection.again, model.order, causes_of_rover()),
+        Guide("", selection.again, FindingOrder({}, model.order), causes_of_rover()),
         brief(len(told), options.verbose),
     )
     for one in told:
@@ -330,9 +334,10 @@ def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":
     if not (options.junit or options.sarif or options.annotations):
         return undelivered
     from rovercheck.checker.commands.check.ci import Reports
+    from rovercheck.checker.verify.finding_order import order_of
 
     reports = Reports(
-        variant.systems(),
+        order_of(variant.model, variant.systems()),
         options.junit,
         options.sarif,
         options.annotations or "",

@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from secrets import token_hex
@@ -20,8 +20,8 @@ from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace, counted_ticks
 from rovercheck.checker.results.verdict import Exhausted, Unknown, Violated
 from rovercheck.checker.verify.checked import CheckedProperty, length
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.properties.forms import Reachable
-from rovercheck.spec_model.lang.system import System
 
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The file, named by GitHub, to which a step adds its summary."""
@@ -34,7 +34,7 @@ class Reports:
     They are written whole, also when a run was interrupted: then they say so.
     """
 
-    systems: Mapping[str, System]
+    order: FindingOrder
     junit: Path | None = None
     sarif: Path | None = None
     annotations: str = ""
@@ -61,7 +61,7 @@ class Reports:
 
     def write(self, found: Sequence[CheckedProperty], wanted: int, ended: str = "") -> None:
         """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
-        findings = tuple(finding(c, self.systems, self.options) for c in found)
+        findings = tuple(finding(c, self.order, self.options) for c in self.order.ordered(found))
         report = CiReport(findings, wanted, self.variant, ended)
         if self.annotations:
             text = annotations(report)  # the runner reads both streams
@@ -87,8 +87,9 @@ def _summarised(report: CiReport) -> None:
             raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
 
 
-def finding(compared: CheckedProperty, systems: Mapping[str, System], options: str = "") -> CiFinding:
+def finding(compared: CheckedProperty, order: FindingOrder, options: str = "") -> CiFinding:
     """A verdict as every report shows it."""
+    systems, hazard = order.systems, order.hazard(compared)
     prop, verdict = compared.result.property, compared.verdict
     because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
     on_record = compared.verdict.word == compared.expected.verdict
@@ -102,6 +103,12 @@ def finding(compared: CheckedProperty, systems: Mapping[str, System], options: s
         evidence=_rejected(compared) or evidence(compared.result),
         recorded=recorded(compared.expected),
         because=compared.expected.because if on_record else "",
+        effect=compared.expected.effect if on_record else "",
+        severity=hazard.severity,
+        hazard=" ".join(filter(None, (hazard.id, hazard.text))) if hazard.id else "",
+        accepted=compared.expected.accepted if on_record else None,
+        since=compared.expected.since if on_record else None,
+        lapsed=compared.lapsed is not None,
         help="\n".join(formally(prop, system, "")) if system is not None else prop.text,
         tags=prop.covers,
         place=prop.place,
@@ -122,6 +129,8 @@ def level(compared: CheckedProperty) -> FindingLevel:
     if isinstance(compared.result.certificate, Rejected):
         return FindingLevel.REJECTED
     match compared.code:
+        case Exit.AS_EXPECTED if compared.lapsed is not None:
+            return FindingLevel.EXPIRED
         case Exit.AS_EXPECTED:
             return (
                 FindingLevel.KNOWN

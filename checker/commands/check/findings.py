@@ -3,7 +3,7 @@
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os.path import relpath
 from pathlib import Path
 from shlex import quote
@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.told import ToldVerdict
+from rovercheck.checker.verify.finding_order import FindingOrder
+from rovercheck.properties.hazards import Hazard
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import ChainStatus
@@ -34,13 +36,13 @@ SITUATION = {"proved": "reached", RESTRICTED: f"out of reach {RESTRICTED}", "vio
 class Guide:
     """Where a user reads on.
 
-    ``options`` make a command be about the same charts, ``chosen`` about the same properties.  ``gravest``
-    are the requirements, those first whose violation is gravest; ``causes`` is a page on all findings.
+    ``options`` make a command be about the same charts, ``chosen`` about the same properties.  ``order`` says
+    which findings are gravest; ``causes`` is a page on all findings.
     """
 
     options: str = ""
     chosen: str = ""
-    gravest: Sequence[str] = ()
+    order: FindingOrder = field(default_factory=FindingOrder)
     causes: str = ""
 
     def command(self, *words: str) -> str:
@@ -151,7 +153,7 @@ def about_chains(told: Sequence["ChainStatus"]) -> Iterator[str]:
 
 def read_on(found: Sequence[ToldVerdict], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
-    known = gravest([one for one in found if one.as_expected or one.variant], guide.gravest)
+    known = gravest([one for one in found if one.as_expected or one.variant], guide.order.requirements)
     number = sum(one.word == "violated" for one in found)
     if known:
         yield ""
@@ -203,3 +205,8 @@ def gravest(found: Sequence[ToldVerdict], order: Sequence[str]) -> list[ToldVerd
 def _within(one: ToldVerdict) -> tuple[bool, int, int, str]:
     """What is graver of two findings about one requirement."""
     return one.situation, -one.charts, one.ticks or sys.maxsize, one.id
+
+
+def headline(hazard: Hazard) -> str:
+    """``catastrophic, H-COLLISION: The rover runs into an obstacle.``"""
+    return f"{', '.join(filter(None, (hazard.severity, hazard.id)))}: {hazard.text}"

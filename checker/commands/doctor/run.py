@@ -51,6 +51,7 @@ REQUIRED = {
     "python-sat": "the engine pdr, reasons of traces",
     "pyvcd": "VCD files",
     "rich": "tables and colours in the terminal",
+    "tomlkit": "accept, which writes into a baseline",
     "typing-extensions": "records of JSON documents",
     "z3-solver": "the engines bmc, kinduction and localisation",
 }

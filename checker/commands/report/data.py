@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.commands.check.further import noticing
@@ -10,6 +10,7 @@ from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.model import Model
 from rovercheck.checker.render.review.model import (
     Covered,
+    HazardRow,
     InterpretationRow,
     Remedy,
     RequirementRow,
@@ -23,9 +24,12 @@ from rovercheck.checker.render.review.model import (
 from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Unknown
+from rovercheck.checker.system.cone import Dependencies
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.english import HOW_TO_READ
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Form, Property, formulas
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.expr import Expr, Named
@@ -33,24 +37,22 @@ from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.system import System, charts_of
 from rovercheck.spec_model.lang.walk import nodes
 
-SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
-"""How the reason of a finding begins that has the same cause as another one."""
-
 
 @dataclass(frozen=True)
 class Extras:
     """What a model may have besides properties and systems.
 
-    ``depends`` names the interpretations that a property depends on; ``reasons`` are recorded causes, by id,
-    ``premises`` what came of asking whether the case occurs that a property speaks of.  ``graphs`` are the
+    ``depends`` tells what a verdict depends on; ``premises`` are what came of asking whether the case occurs
+    that a property speaks of.  ``graphs`` are the
     state graphs of systems, ``undrawn`` says of some why there is none.
     """
 
     interpretations: tuple[InterpretationRow, ...] = ()
-    depends: Callable[[Property], Sequence[str]] = lambda prop: prop.interpretations
+    depends: Callable[[CheckedProperty], Dependencies] = lambda one: Dependencies(
+        one.result.property.interpretations
+    )
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
-    reasons: Mapping[str, str] = field(default_factory=dict)
     premises: Mapping[str, PremiseCase] = field(default_factory=dict)
     graphs: tuple[StateGraphView, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
@@ -61,13 +63,27 @@ def reviewed(
 ) -> Review:
     """All that the page shows.  ``whole``: no selection was made among the properties of the model."""
     shown = sorted(found, key=lambda c: (c.result.property.area, by_number(c.result.property.id)))
+    order = order_of(model)
+    places = order.places(shown)
+    # by system, so that each is lowered once
+    depends = {c.result.property.id: extras.depends(c) for c in sorted(shown, key=lambda c: c.result.system)}
     systems = concerned(shown, model)
     properties = [c.result.property for c in shown]
     decided = {p.id for p in properties}
     left = [p for id, p in model.properties.items() if id not in decided] if whole else []
     verdicts = {c.result.property.id: c.verdict.word for c in shown}
     verdicts |= {p.id: model.expected(p.id).verdict for p in left}
-    checks = tuple(checked(c, model, extras) for c in shown)
+    checks = tuple(
+        replace(
+            checked(c, model, extras),
+            severity=order.hazard(c).severity,
+            hazard=order.hazard(c).id,
+            place=places[c.result.property.id],
+            interpretations=depends[c.result.property.id].interpretations,
+            assumptions=depends[c.result.property.id].assumptions,
+        )
+        for c in shown
+    )
     read = {id for one in checks for id in one.interpretations}
     return Review(
         f"Review of {model.name}",
@@ -85,11 +101,12 @@ def reviewed(
         extras.undrawn,
         HOW_TO_READ,
         tuple((p.id, f"only with --full; expected: {model.expected(p.id).verdict}") for p in left),
+        {h.id: HazardRow(h.id, h.text, h.severity, h.because) for h in model.hazards.values()},
     )
 
 
 def checked(compared: CheckedProperty, model: Model, extras: Extras) -> ReviewedProperty:
-    """A property with its verdict."""
+    """A property with its verdict, without what follows from the others or from its system."""
     prop, verdict, entry = compared.result.property, compared.verdict, compared.expected
     system = model.systems[prop.on]
     because = None if isinstance(verdict, Unknown) else verdict.because
@@ -116,9 +133,12 @@ def checked(compared: CheckedProperty, model: Model, extras: Extras) -> Reviewed
         vacuous=case is not None and case.occurs is False,
         because=entry.because if on_record else "",
         no_repair=entry.no_repair if on_record else "",
-        cause=cause(prop.id, extras.reasons),
+        cause=cause(prop.id, model.on_record),
         requirements=prop.covers,
-        interpretations=tuple(extras.depends(prop)),
+        effect=entry.effect if on_record and not compared.variant else "",
+        since=entry.since.isoformat() if on_record and entry.since else "",
+        decision=decision(entry) if on_record and verdict.word != "proved" else "",
+        lapsed=compared.lapsed is not None,
         quiet=isinstance(because, Exhausted) and because.skipped,
         on=prop.on if prop.on != compared.result.system else "",
         again=again(prop.id, model.options),
@@ -131,14 +151,21 @@ def again(id: str, options: str) -> str:
     return "; ".join(" ".join(filter(None, ("rovercheck", verb, id, options))) for verb in ("check", "trace"))
 
 
-def cause(id: str, reasons: Mapping[str, str]) -> str:
-    """The finding whose reason the reason of this one refers to, and so on to the first."""
+def cause(id: str, known: Mapping[str, Expected]) -> str:
+    """The finding that is said to have the same cause as this one, and so on to the first."""
     seen = [id]
-    while (found := SAME_CAUSE.match(reasons.get(seen[-1], ""))) and found[1] not in seen:
-        if found[1] not in reasons:
-            break
-        seen.append(found[1])
+    while (one := known.get(seen[-1], Expected()).same_cause) and one not in seen:
+        seen.append(one)
     return seen[-1]
+
+
+def decision(entry: Expected) -> str:
+    """What was decided about a finding, in a line."""
+    one = entry.accepted
+    if one is None:
+        return "open: nobody has accepted it"
+    said = " ".join(filter(None, ("accepted", one.term)))
+    return f"{said}{', which is over' if one.expired else ''}: {one.because}"
 
 
 def proved_again(outcome: Outcome | None) -> str:

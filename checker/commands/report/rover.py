@@ -1,9 +1,11 @@
 """What only the rover has on its review page: interpretations, repairs, tests that are kept."""
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 from rovercheck.checker.commands.report.data import Extras
 from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
+from rovercheck.checker.commands.shared.dependencies import of_verdict
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.model.variant import Variant
@@ -17,7 +19,6 @@ from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings
-from rovercheck.properties.catalogue import expected, read_by
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.ambiguity import Ambiguity, ambiguities
 from rovercheck.spec_model.lang.chart import Chart
@@ -30,14 +31,7 @@ def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: boo
     taken = tuple(
         interpretation(one, variant.choices.get(one.id, one.default)) for one in ambiguities().values()
     )
-    reasons = {c.result.property.id: expected(c.result.property.id).because for c in found}
-    return Extras(
-        taken,
-        lambda prop: sorted({*prop.interpretations, *read_by(prop)}),
-        mended,
-        tuple(coverage()),
-        reasons,
-    )
+    return Extras(taken, partial(of_verdict, variant=variant), mended, tuple(coverage()))
 
 
 def interpretation(one: Ambiguity, taken: str) -> InterpretationRow:

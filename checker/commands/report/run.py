@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
@@ -18,6 +19,7 @@ from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
 from rovercheck.checker.commands.report.graphs import state_graphs
 from rovercheck.checker.commands.report.rover import extras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.dependencies import of_verdict
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.told import told
@@ -87,7 +89,11 @@ def page(
     cases_known: Mapping[str, PremiseCase] | None = None,
 ) -> str:
     """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id."""
-    own = extras(variant, found, not options.no_repairs) if model.path is None else Extras()
+    own = (
+        extras(variant, found, not options.no_repairs)
+        if model.path is None
+        else Extras(depends=partial(of_verdict, variant=variant))
+    )
     graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
     own = replace(own, premises=cases_known or {}, graphs=graphs, undrawn=undrawn)
     return render(

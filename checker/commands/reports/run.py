@@ -4,13 +4,23 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
+from itertools import groupby
 from pathlib import Path
 
 from rovercheck.checker.commands.check.findings import totals
 from rovercheck.checker.commands.report.causes import with_reasons
+from rovercheck.checker.commands.reports.finding import (
+    CAUSE,
+    NOT_ASKED,
+    RUN,
+    finding,
+    hazard_of,
+    headline,
+    line,
+)
 from rovercheck.checker.commands.reports.promises import page as promises_page
 from rovercheck.checker.commands.reports.record import FILE, VerdictRecord, without_choices
-from rovercheck.checker.commands.reports.repairs import Proof, proofs, repair_pages, sections
+from rovercheck.checker.commands.reports.repairs import Proof, proofs, repair_pages
 from rovercheck.checker.commands.requirements.run import page as matrix_page
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, write
@@ -18,17 +28,16 @@ from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.told import told
 from rovercheck.checker.engines import Limits
-from rovercheck.checker.explain.explanation import unexplained
+from rovercheck.checker.model.rover import rover
 from rovercheck.checker.render import renderers
-from rovercheck.checker.render.trace_markdown import reasons_table
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.english import HOW_TO_READ
 from rovercheck.properties.forms import Property
-from rovercheck.properties.requirements import requirements
 from rovercheck.spec_model.lang.system import TICK_MS
 from rovercheck.spec_model.rover import charts, systems
 
@@ -81,13 +90,6 @@ def differences(folder: Path, made: Pages) -> Iterator[str]:
                 yield name
 
 
-RUN = "## Shortest counterexample"
-LONG_RUN = "## A counterexample, not known to be a shortest one"
-"""For runs whose length is not recorded."""
-
-
-CAUSE = "## Cause: the inputs that determine the violation"
-NOT_ASKED = "Not looked for in this version of the page."
 _CAUSE = re.compile(rf"^{CAUSE}\n(?:(?!## ).*\n)*", re.MULTILINE)
 
 
@@ -151,7 +153,8 @@ def pages_of_verdicts(found: Sequence[CheckedProperty], proved: Sequence[Proof] 
     }
     for compared in ordered:
         if compared.verdict.word == "violated":
-            made[_page(compared)] = _finding(compared, proved)
+            about = _about(compared.result.system, "../")
+            made[_page(compared)] = HEADER + finding(compared, proved, about)
             made |= _picture(compared)
     return made
 
@@ -187,14 +190,21 @@ def _index(found: Sequence[CheckedProperty]) -> str:
         f"Each property opens to what is checked. {HOW_TO_READ}",
         "",
     ]
-    lines += ["## Findings", "", "Properties that fail on the charts as specified.", ""]
-    for compared in found:
-        if compared.verdict.word == "violated":
-            prop = compared.result.property
-            said = f"{prop.text} {compared.expected.because}".rstrip()
-            lines.append(f"- [{prop.id}]({_page(compared)}) {said}")
+    lines += [
+        "## Findings",
+        "",
+        "What goes wrong on the charts as specified, the gravest first, and why.",
+        "",
+    ]
+    broken = order_of(rover()).ordered([c for c in found if c.verdict.word == "violated"])
+    for hazard, members in groupby(broken, key=lambda c: hazard_of(c.result.property, c.expected)):
+        lines += [f"### {headline(hazard)}", "", f"{hazard.because} ({hazard.id})", ""]
+        lines += [
+            line(c.result.property, c.expected, f"[{c.result.property.id}]({_page(c)})") for c in members
+        ]
+        lines.append("")
     for area in dict.fromkeys(c.result.property.area for c in found):
-        lines += ["", f"## {area.replace('_', ' ').capitalize()}", ""]
+        lines += [*([""] if lines[-1] else []), f"## {area.replace('_', ' ').capitalize()}", ""]
         lines += _table([c for c in found if c.result.property.area == area])
     lines += [
         "",
@@ -203,10 +213,21 @@ def _index(found: Sequence[CheckedProperty]) -> str:
         "Decided by `make check-full`; the expected verdict:",
         "",
     ]
-    for prop in (p for p in catalogue().values() if p.costly):
-        entry = expected(prop.id)
-        lines.append(f"- {prop.id} ({prop.on}) {entry.verdict}: {prop.text} {entry.because}".rstrip())
+    lines += [*_not_decided(), ""]
+    lines += [f"- {p.id} ({p.on}) proved: {p.text}" for p in _costly() if expected(p.id).verdict == "proved"]
     return HEADER + "\n".join(lines) + "\n"
+
+
+def _costly() -> list[Property]:
+    return [prop for prop in catalogue().values() if prop.costly]
+
+
+def _not_decided() -> Iterator[str]:
+    """The findings that take long, as they are on record, the gravest first."""
+    broken = [(p, expected(p.id)) for p in _costly() if expected(p.id).verdict != "proved"]
+    for prop, entry in sorted(broken, key=lambda pair: hazard_of(*pair).severity.rank):
+        hazard = hazard_of(prop, entry)
+        yield line(prop, entry, f"{prop.id} ({prop.on}) {entry.verdict}, {hazard.severity}:")
 
 
 def _table(found: Sequence[CheckedProperty]) -> list[str]:
@@ -242,35 +263,6 @@ def _in_detail(prop: Property) -> str:
 
 def _cell(text: str) -> str:
     return text.replace("|", "\\|")
-
-
-def _finding(compared: CheckedProperty, proved: Sequence[Proof]) -> str:
-    prop, verdict = compared.result.property, compared.verdict
-    assert not isinstance(verdict, Unknown)
-    known = requirements()
-    lines = [f"# {prop.id}: violated", "", prop.text, ""]
-    lines += ["\n>\n".join(f"> {escape(line, quote=False)}" for line in formally(prop)), ""]
-    lines += [f"- {known[id].id} [{known[id].source}]: {known[id].text}" for id in prop.covers]
-    if prop.interpretations:
-        lines.append(f"- interpretations: {', '.join(prop.interpretations)}")
-    lines += [f"- about {_about(compared.result.system, '../')}"]
-    lines += [f"- {evidence(compared.result)}", "", "## Why", "", compared.expected.because, ""]
-    lines += sections(prop.id, compared.expected, proved)
-    if isinstance(verdict.because, Trace):
-        lines += [LONG_RUN if compared.expected.depth is None else RUN, ""]
-        lines += [f"![{prop.id} over time]({prop.id}.svg)", ""]
-        shown = replace(verdict.because.focused(), necessary=None)
-        lines += [_text(renderers("trace")["markdown"].render(shown)), *_cause(verdict.because)]
-        names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.transitions)
-        lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]
-    return HEADER + "\n".join(lines).rstrip() + "\n"
-
-
-def _cause(trace: Trace) -> list[str]:
-    """The section on the cause of a violation; it stands apart, so as to be compared or not."""
-    if why := unexplained(trace):
-        return [CAUSE, "", f"Not looked for, as {why}."]
-    return [CAUSE, "", *(reasons_table(trace.focused()) or [NOT_ASKED])]
 
 
 def _systems() -> str:

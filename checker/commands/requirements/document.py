@@ -1,6 +1,6 @@
 """``rovercheck requirements --json``: the matrix for machines (``checker/schemas/requirements-1.json``)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from typing_extensions import TypedDict
@@ -10,6 +10,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.io.document import Text
 from rovercheck.properties.coverage import RequirementCoverage
 from rovercheck.properties.forms import Reachable
+from rovercheck.properties.hazards import Hazard, Severity, gravest_of
 
 
 class CoveringRow(TypedDict):
@@ -36,6 +37,11 @@ class RequirementStatus(TypedDict):
     reason: str
     """Why no property covers it."""
     properties: list[CoveringRow]
+    """The gravest first, of one severity in the order of the model."""
+    hazards: list[str]
+    """What may come of breaking it, by id, the gravest first."""
+    severity: Severity
+    """How bad that would be."""
 
 
 class RequirementsDocument(TypedDict):
@@ -49,19 +55,24 @@ class RequirementsDocument(TypedDict):
 
 
 def document(
-    rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, code: Exit
+    rows: Sequence[RequirementCoverage],
+    verdicts: Verdicts,
+    origin: str,
+    code: Exit,
+    hazards: Mapping[str, Hazard],
 ) -> RequirementsDocument:
     """The matrix as JSON."""
     return {
         "schema": "rovercheck/requirements/1",
         "verdicts": origin,
         "exit": code,
-        "requirements": [_row(row, verdicts) for row in rows],
+        "requirements": [_row(row, verdicts, hazards) for row in rows],
     }
 
 
-def _row(row: RequirementCoverage, verdicts: Verdicts) -> RequirementStatus:
+def _row(row: RequirementCoverage, verdicts: Verdicts, hazards: Mapping[str, Hazard]) -> RequirementStatus:
     item = row.requirement
+    own = [one for one in hazards.values() if item.id in one.requirements]
     return {
         "id": item.id,
         "text": item.text,
@@ -75,6 +86,8 @@ def _row(row: RequirementCoverage, verdicts: Verdicts) -> RequirementStatus:
             {"id": p.id, "verdict": verdicts[p.id], "covers": not isinstance(p.form, Reachable)}
             for p in row.properties
         ],
+        "hazards": [one.id for one in own],
+        "severity": gravest_of([item.id], hazards).severity,
     }
 
 

@@ -16,6 +16,7 @@ from rovercheck.checker.verify.checked import CheckedProperty, worst
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.forms import Property, Reachable
+from rovercheck.properties.hazards import Hazard, gravest_of
 
 EXPECTED = "Verdicts are those that the baseline expects; --check decides them now."
 DECIDED = "Verdicts were decided now."
@@ -46,17 +47,22 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     Exit code 1 if a requirement has neither a property that covers it nor a reason.
     """
     model = rover() if path is None else load(path)
-    stated = model.stated()
-    rows = matrix(stated.values(), model.requirements, noticing(model))
+    stated, hazards = model.stated(), model.hazards
+
+    def rank(prop: Property) -> int:
+        return gravest_of(prop.covers, hazards, model.expected(prop.id).hazard).severity.rank
+
+    rows = matrix(sorted(stated.values(), key=rank), model.requirements, noticing(model))
     if not decide:
-        return show(rows, {id: model.expected(id).verdict for id in stated}, EXPECTED, as_json)
+        verdicts = {id: model.expected(id).verdict for id in stated}
+        return show(rows, verdicts, EXPECTED, as_json, hazards)
     found = [
         CheckedProperty(r, model.expected(r.property.id))
         for r in results(
             list(stated.values()), model.systems, SearchSettings(invariants=invariants_of(model))
         )
     ]
-    code = show(rows, words(found), DECIDED, as_json)
+    code = show(rows, words(found), DECIDED, as_json, hazards)
     return code if code != Exit.AS_EXPECTED else worst(found)
 
 
@@ -64,17 +70,32 @@ def words(found: Sequence[CheckedProperty]) -> Verdicts:
     return {c.result.property.id: c.verdict.word for c in found}
 
 
-def show(rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, as_json: bool) -> Exit:
-    """Print the matrix as a table or as JSON."""
+def show(
+    rows: Sequence[RequirementCoverage],
+    verdicts: Verdicts,
+    origin: str,
+    as_json: bool,
+    hazards: Mapping[str, Hazard] | None = None,
+) -> Exit:
+    """Print the matrix as a table or as JSON; with the severity of breaking each, if there are hazards."""
     code = Exit.FAILED if any(row.open for row in rows) else Exit.AS_EXPECTED
     if as_json:
         from rovercheck.checker.commands.requirements.document import document
 
-        print(json_text(document(rows, verdicts, origin, code), ascii=True))
+        print(json_text(document(rows, verdicts, origin, code, hazards or {}), ascii=True))
         return code
+    severity = [(gravest_of([row.requirement.id], hazards).severity,) if hazards else () for row in rows]
     listed(
-        ("requirement", "state", "properties, or the reason why none covers it"),
-        [(row.requirement.id, row.state(verdicts), because(row, verdicts)) for row in rows],
+        (
+            "requirement",
+            "state",
+            *(("severity",) if hazards else ()),
+            "properties, or the reason why none covers it",
+        ),
+        [
+            (row.requirement.id, row.state(verdicts), *bad, because(row, verdicts))
+            for row, bad in zip(rows, severity, strict=True)
+        ],
     )
     out.print()
     for line in (*counts(rows, verdicts), *_meaning(rows), origin):

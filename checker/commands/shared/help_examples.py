@@ -11,6 +11,10 @@ COLUMNS, WIDE, NARROWEST, INDENT = 80, 60, 20, 4
 """Of help at most; from which on options stand beside what they do; at least; of what stands below."""
 
 EXAMPLES: dict[str, tuple[str, ...]] = {
+    "accept": (
+        'rovercheck accept PB1-15 --because "3 s are wanted." --owner "A. Rossi"',
+        "rovercheck accept --from decisions.json --model heater.py",
+    ),
     "certify": (
         "rovercheck certify proofs",
         "rovercheck certify proofs --solver bitwuzla --smt2 obligations",

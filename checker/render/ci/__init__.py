@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import date
 from enum import StrEnum
 from textwrap import wrap
 
 from rovercheck.checker.render import trace_table
 from rovercheck.checker.render.waves import outcome
 from rovercheck.checker.results.trace import Trace
+from rovercheck.properties.expected import Acceptance
+from rovercheck.properties.hazards import Severity
 from rovercheck.spec_model.lang.place import Place
 
 
@@ -20,6 +23,8 @@ class FindingLevel(StrEnum):
     FAILED = "failed"
     REJECTED = "rejected"
     """The proof does not hold: a fault of the checker, not of what it checks."""
+    EXPIRED = "expired"
+    """An expected violation that somebody accepted until a day that is over."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +33,9 @@ class CiFinding:
 
     ``word`` is its verdict, ``recorded`` the expected one (empty if there is no record), ``evidence`` what
     the verdict rests on, and ``because`` the reason in the baseline.  ``help`` says in words what is checked,
-    ``tags`` are the requirements, ``details`` what a machine may want to count.
+    ``tags`` are the requirements, ``details`` what a machine may want to count.  ``effect`` is what goes
+    wrong, ``severity`` and ``hazard`` (id and sentence) how bad that is, ``since`` when it became known,
+    ``accepted`` who lives with it.
     """
 
     id: str
@@ -46,6 +53,33 @@ class CiFinding:
     details: Mapping[str, str] = field(default_factory=dict)
     options: str = ""
     variant: str = ""
+    effect: str = ""
+    severity: Severity = Severity.UNRATED
+    hazard: str = ""
+    since: date | None = None
+    accepted: Acceptance | None = None
+    lapsed: bool = False
+    """Whether the time is over for which it was accepted."""
+
+    @property
+    def says(self) -> str:
+        """What goes wrong, if that is on record, else what should be true."""
+        return self.effect or self.text
+
+    @property
+    def gravity(self) -> str:
+        """How bad it is, in a line; empty where no hazard is known."""
+        return f"{self.severity}: {self.hazard}" if self.hazard else ""
+
+    @property
+    def decision(self) -> str:
+        """What was decided about a violation that is on record, in a line; empty for any other verdict."""
+        if self.level is not FindingLevel.KNOWN and not self.lapsed:
+            return ""
+        if self.accepted is None:
+            return "open: nobody has accepted it"
+        ended = ", which is over" if self.lapsed else ""
+        return f"{' '.join(filter(None, ('accepted', self.accepted.term)))}{ended}: {self.accepted.because}"
 
     @property
     def headline(self) -> str:
@@ -53,6 +87,8 @@ class CiFinding:
         if self.level is FindingLevel.REJECTED:
             return f"The proof of {self.id} does not hold when it is checked again"
         verdict = " ".join(filter(None, (self.id, "is", self.word, self.variant)))
+        if self.lapsed and self.accepted is not None:
+            return f"{verdict}, as expected, but was accepted {self.accepted.term} only"
         if self.level is FindingLevel.KNOWN:
             return f"{verdict}, as expected"
         if self.level is FindingLevel.PASSED or not self.recorded:
@@ -103,15 +139,16 @@ class CiReport:
         return "stopped" if self.ended else "interrupted"
 
     def worst_first(self) -> list[CiFinding]:
-        """What failed first, then what is open, then what is known."""
+        """What failed first, then what is open, then what is known; of each kind in the order given."""
         order = [
             FindingLevel.REJECTED,
             FindingLevel.FAILED,
             FindingLevel.OPEN,
+            FindingLevel.EXPIRED,
             FindingLevel.KNOWN,
             FindingLevel.PASSED,
         ]
-        return sorted(self.findings, key=lambda f: (order.index(f.level), f.id))
+        return sorted(self.findings, key=lambda f: order.index(f.level))
 
 
 def of_trace(trace: Trace) -> CiReport:
@@ -135,7 +172,15 @@ def of_trace(trace: Trace) -> CiReport:
 
 def explained(finding: CiFinding) -> str:
     """All that a person wants to read below the headline, in lines of 80 columns."""
-    told = [finding.text, f"Why: {finding.because}" if finding.because else "", finding.evidence]
+    told = [
+        finding.says,
+        f"Demanded: {finding.text}" if finding.effect else "",
+        f"How bad: {finding.gravity}" if finding.gravity and finding.level is not FindingLevel.PASSED else "",
+        f"Since: {finding.since}" if finding.since else "",
+        f"Why: {finding.because}" if finding.because else "",
+        f"Decision: {finding.decision}" if finding.decision else "",
+        finding.evidence,
+    ]
     lines = [line for text in told for line in wrap(text, 80, break_long_words=False)]
     if finding.trace is not None:
         shown = finding.trace.focused() if finding.trace.property.relevant else finding.trace

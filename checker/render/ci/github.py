@@ -14,6 +14,7 @@ _KINDS = {
     FindingLevel.REJECTED: "error",
     FindingLevel.FAILED: "error",
     FindingLevel.OPEN: "warning",
+    FindingLevel.EXPIRED: "warning",
     FindingLevel.KNOWN: "notice",
 }
 _SIGNS = {FindingLevel.REJECTED: "💥", FindingLevel.FAILED: "❌", FindingLevel.OPEN: "❔"}
@@ -49,7 +50,9 @@ def _of_kind(kind: str, findings: list[CiFinding]) -> Iterator[str]:
 
 def annotation(kind: str, finding: CiFinding) -> str:
     """An annotation of the line at which the property is written; ``kind`` is error, warning or notice."""
-    message = [finding.text, finding.evidence, f"Why: {finding.because}" if finding.because else ""]
+    message = [finding.says, finding.gravity, finding.evidence]
+    message += [f"Why: {finding.because}" if finding.because else ""]
+    message += [f"Decision: {finding.decision}" if finding.decision else ""]
     message += [f"Show it: {finding.shown_with}"] if finding.trace is not None else []
     place = finding.place
     at = {"file": place.path, "line": str(place.line)} if place is not None else {}
@@ -91,8 +94,10 @@ def summary(report: CiReport) -> str:
         for f in report.worst_first()
         if f.level in (FindingLevel.REJECTED, FindingLevel.FAILED, FindingLevel.OPEN)
     ]
-    known = sum(f.level is FindingLevel.KNOWN for f in report.findings)
+    known = sum(f.level in (FindingLevel.KNOWN, FindingLevel.EXPIRED) for f in report.findings)
     lines += ["", f"{known:,} findings are as expected."] if known else []
+    over = [f"{f.id} ({f.accepted.term})" for f in report.worst_first() if f.lapsed and f.accepted]
+    lines += ["", f"No longer accepted: {', '.join(map(_cell, over))}."] if over else []
     if not told:
         return "\n".join([*lines, "", "Every verdict is as expected." if report.complete else "", ""])
     lines += ["", "| | Property | Now | Expected | Says |", "|---|---|---|---|---|"]

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Iterator
 from io import BytesIO
-from itertools import groupby
 
 from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 from junitparser.junitparser import FinalResult
@@ -11,6 +10,7 @@ from junitparser.junitparser import FinalResult
 from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
 
 FIRST = "rovercheck"
+_EXPECTED = (FindingLevel.KNOWN, FindingLevel.EXPIRED)
 _CONTROL = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML cannot hold."""
 
@@ -18,13 +18,16 @@ _CONTROL = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 def junit(report: CiReport) -> str:
     """The report as XML text.
 
-    A violation that is expected has passed and says so; what is not decided is an error, or skipped where
-    just that is expected, and never a pass.  That not all was decided is an error of its own.
+    Suites and their cases stand in the order of ``worst_first``.  A violation that is expected has passed and
+    says so, also where the time is over for which it was accepted; what is not decided is an error, or
+    skipped where just that is expected, and never a pass.  That not all was decided is an error of its own.
     """
     xml = JUnitXml(FIRST)
-    found = sorted(report.findings, key=lambda f: (f.system, f.id))
-    for system, findings in groupby(found, key=lambda f: f.system):
-        xml.add_testsuite(_suite(system, list(findings), report.variant))
+    by_system: dict[str, list[CiFinding]] = {}
+    for finding in report.worst_first():
+        by_system.setdefault(finding.system, []).append(finding)
+    for system, findings in by_system.items():
+        xml.add_testsuite(_suite(system, findings, report.variant))
     if not report.complete:
         xml.add_testsuite(_interrupted(report))
     count: Callable[[], None] = xml.update_statistics
@@ -53,7 +56,7 @@ def _case(finding: CiFinding) -> TestCase:
     case.result = list(_results(finding))
     lines = [
         finding.headline,
-        explained(finding) if finding.level is FindingLevel.KNOWN else finding.evidence,
+        explained(finding) if finding.level in _EXPECTED else finding.evidence,
     ]
     lines += [f"{name}: {value}" for name, value in finding.details.items()]
     case.system_out = _clean("\n".join(lines))
@@ -64,7 +67,7 @@ def _results(finding: CiFinding) -> Iterator[FinalResult]:
     """What makes a case no pass; nothing for one that passed."""
     kinds = {FindingLevel.FAILED: Failure, FindingLevel.REJECTED: Error, FindingLevel.OPEN: Error}
     kind = kinds.get(finding.level)
-    if kind is None and finding.level is FindingLevel.KNOWN and finding.word == "unknown":
+    if kind is None and finding.level in _EXPECTED and finding.word == "unknown":
         kind = Skipped
     if kind is not None:
         result = kind(_clean(finding.headline), finding.level.value)

@@ -24,6 +24,8 @@ from rovercheck.checker.render.story import (
     start_of,
 )
 from rovercheck.checker.results.trace import Trace
+from rovercheck.properties.expected import Acceptance
+from rovercheck.properties.hazards import Severity
 from rovercheck.spec_model.lang.place import Place
 
 # --- A trace as a code flow of SARIF -------------------------------------------------------------------
@@ -136,8 +138,18 @@ _LEVELS = {
     FindingLevel.REJECTED: "error",
     FindingLevel.FAILED: "error",
     FindingLevel.OPEN: "none",
+    FindingLevel.EXPIRED: "warning",
     FindingLevel.KNOWN: "note",
 }
+
+RANKS = {
+    Severity.CATASTROPHIC: 95.0,
+    Severity.CRITICAL: 75.0,
+    Severity.MARGINAL: 50.0,
+    Severity.UNRATED: 40.0,
+    Severity.NEGLIGIBLE: 10.0,
+}
+"""How important a result is, from 0 to 100; none is given where no hazard is known."""
 
 
 def sarif(report: CiReport, witnesses: bool = False) -> str:
@@ -207,7 +219,9 @@ def _result(finding: CiFinding, index: int) -> dict[str, Any]:
     open_ = finding.level is FindingLevel.OPEN or finding.word == "unknown"
     kind = "open" if open_ else "informational" if finding.level is FindingLevel.PASSED else "fail"
     reason = f" {finding.because}" if finding.because else ""
-    text = f"{finding.headline}: {finding.text} {finding.evidence[:1].upper()}{finding.evidence[1:]}.{reason}"
+    decision = f" Decision: {finding.decision}" if finding.lapsed else ""
+    shown = f"{finding.evidence[:1].upper()}{finding.evidence[1:]}"
+    text = f"{finding.headline}: {finding.says} {shown}.{reason}{decision}"
     key = fingerprint(finding)
     flows, cut = code_flow(finding) if finding.trace is not None else ([], "")
     return {
@@ -221,9 +235,39 @@ def _result(finding: CiFinding, index: int) -> dict[str, Any]:
             "primaryLocationLineHash": f"{key[:16]}:1",  # the one that GitHub reads
             "rovercheckVerdict/v1": key,
         },
+        **({"rank": RANKS[finding.severity]} if kind == "fail" and finding.hazard else {}),
         **({"baselineState": _compared(finding)} if finding.recorded else {}),
+        **({"suppressions": [_suppression(finding.accepted)]} if _accepted(finding) else {}),
         **({"codeFlows": flows} if flows else {}),
-        **({"properties": dict(finding.details)} if finding.details else {}),
+        **({"properties": told} if (told := {**finding.details, **_gravity(finding)}) else {}),
+    }
+
+
+def _gravity(finding: CiFinding) -> dict[str, str]:
+    """How bad it is, and since when it is known."""
+    since = {"since": finding.since.isoformat()} if finding.since else {}
+    return {"severity": finding.severity, "hazard": finding.hazard, **since} if finding.hazard else since
+
+
+def _accepted(finding: CiFinding) -> bool:
+    """Whether somebody lives with it: it is then shown as suppressed, which no expired acceptance does."""
+    return finding.level is FindingLevel.KNOWN and finding.accepted is not None
+
+
+def _suppression(one: Acceptance | None) -> dict[str, Any]:
+    """An acceptance as SARIF has it: decided outside of the sources."""
+    assert one is not None
+    said = {
+        "owner": one.owner,
+        "on": one.on and one.on.isoformat(),
+        "until": one.until and one.until.isoformat(),
+    }
+    known = {name: value for name, value in said.items() if value}
+    return {
+        "kind": "external",
+        "status": "accepted",
+        "justification": one.because,
+        **({"properties": known} if known else {}),
     }
 
 
@@ -234,6 +278,6 @@ def fingerprint(finding: CiFinding) -> str:
 
 def _compared(finding: CiFinding) -> str:
     """How the result stands to the expected verdict."""
-    if finding.level is FindingLevel.KNOWN:
+    if finding.level is FindingLevel.KNOWN or finding.lapsed:
         return "unchanged"
     return "new" if finding.recorded.startswith("proved") else "updated"

@@ -8,7 +8,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from importlib.resources import files
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 from urllib.parse import quote
 
 from markupsafe import Markup
@@ -17,7 +17,7 @@ from rovercheck.checker.render import renderers
 from rovercheck.checker.render.page import Part, page, templates
 from rovercheck.checker.render.review import traces
 from rovercheck.checker.render.review.fragments import PackedFragments
-from rovercheck.checker.render.review.model import PROVED, Review, ReviewedProperty, StateGraphView
+from rovercheck.checker.render.review.model import PROVED, HazardRow, Review, ReviewedProperty, StateGraphView
 from rovercheck.checker.render.statechart_svg import size
 from rovercheck.checker.render.stategraph.fragment import part as stategraph
 from rovercheck.checker.render.stategraph.fragment import shows, trust
@@ -48,7 +48,7 @@ def render(review: Review) -> str:
     told = {p.id: traces.story(runs[p.id]) for p in review.findings if p.id in runs}
     body = TEMPLATES.get_template("review.html").render(
         review=review,
-        groups=grouped(review.findings),
+        groups=grouped(review.findings, review.hazards),
         areas=[(area, list(of)) for area, of in groupby(review.properties, key=_area)],
         by_id={p.id: p for p in review.properties},
         repairs=_by_property(review),
@@ -98,19 +98,39 @@ def _area(prop: ReviewedProperty) -> str:
     return prop.area or prop.system
 
 
-Group = tuple[str, list[tuple[str, list[ReviewedProperty]]]]
-"""A heading, and under it the findings with the same cause together."""
+class Group(NamedTuple):
+    """A heading with what is to be said below it, and the findings, those with the same cause together."""
+
+    title: str
+    says: str
+    causes: list[tuple[str, list[ReviewedProperty]]]
 
 
-def grouped(findings: Iterable[ReviewedProperty]) -> list[Group]:
-    """What is not as expected first, then area by area; findings with one cause are together."""
+def grouped(findings: Iterable[ReviewedProperty], hazards: Mapping[str, HazardRow]) -> list[Group]:
+    """What is not as expected first, then hazard by hazard; findings with one cause are together.
+
+    Findings come in their order, the gravest first.  Where no hazards are known, they are grouped by area.
+    """
     shown = list(findings)
     surprising = [p for p in shown if not p.as_expected]
     known = [p for p in shown if p.as_expected]
-    groups: list[Group] = [("Not as expected", [("", [p]) for p in surprising])] if surprising else []
-    for area, members in groupby(known, key=_area):
-        groups.append((title_of(area), list(_causes(members))))
+    groups = [Group("Not as expected", "", [("", [p]) for p in surprising])] if surprising else []
+    if not hazards:
+        by_area: dict[str, list[ReviewedProperty]] = {}
+        for one in known:
+            by_area.setdefault(_area(one), []).append(one)
+        return [*groups, *(Group(title_of(area), "", list(_causes(of))) for area, of in by_area.items())]
+    for id, members in groupby(known, key=lambda one: one.hazard):
+        groups.append(_of_hazard(hazards.get(id), members))
     return groups
+
+
+def _of_hazard(hazard: HazardRow | None, members: Iterable[ReviewedProperty]) -> Group:
+    causes = list(_causes(members))
+    if hazard is None:
+        return Group("Unrated", "No hazard names what is broken.", causes)
+    said = f"{hazard.id}, {hazard.severity}. {hazard.because}"
+    return Group(f"{hazard.severity.capitalize()}: {hazard.text}", said, causes)
 
 
 def _causes(findings: Iterable[ReviewedProperty]) -> Iterator[tuple[str, list[ReviewedProperty]]]:

@@ -48,6 +48,19 @@ class ReviewedProperty:
     """The id of the finding whose cause this one has too; its own where the cause is its own."""
     requirements: tuple[str, ...] = ()
     interpretations: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    """The interpretations and assumptions that the verdict can depend on."""
+    effect: str = ""
+    """What goes wrong, in one sentence, as far as that is on record."""
+    severity: str = "unrated"
+    hazard: str = ""
+    """How bad it would be if it were broken: the id of the gravest hazard ("" if none is known)."""
+    place: int = 0
+    """Its place among all properties, the gravest first."""
+    since: str = ""
+    decision: str = ""
+    lapsed: bool = False
+    """Since when a finding is known, who lives with it, and whether the time for that is over."""
     on: str = ""
     """The system it is stated of, where the verdict is about another one."""
     quiet: bool = False
@@ -60,6 +73,11 @@ class ReviewedProperty:
     def finding(self) -> bool:
         """Whether a reviewer has to look at it: violated, undecided, not as expected, or vacuous."""
         return self.verdict != PROVED or not self.as_expected or self.vacuous
+
+    @property
+    def says(self) -> str:
+        """What goes wrong, if that is on record, else what is demanded."""
+        return self.effect or self.text
 
     @property
     def word(self) -> str:
@@ -78,6 +96,16 @@ class RequirementRow:
     reason: str = ""
     properties: tuple[str, ...] = ()
     covered: bool = True
+
+
+@dataclass(frozen=True)
+class HazardRow:
+    """What may come of a broken requirement, how bad that is, and why it is rated so."""
+
+    id: str
+    text: str
+    severity: str
+    because: str
 
 
 @dataclass(frozen=True)
@@ -220,8 +248,9 @@ class Review:
     """How the sentences on what is checked are meant."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Properties that were not decided, and why."""
+    hazards: Mapping[str, HazardRow] = field(default_factory=dict)
 
     @property
     def findings(self) -> tuple[ReviewedProperty, ...]:
-        """What a reviewer has to look at."""
-        return tuple(p for p in self.properties if p.finding)
+        """What a reviewer has to look at, the gravest first."""
+        return tuple(sorted((p for p in self.properties if p.finding), key=lambda p: p.place))
