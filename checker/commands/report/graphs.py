@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 
+from rovercheck.checker.commands.report.kept_graphs import GraphStore, MadeGraph
 from rovercheck.checker.commands.shared.output import counted, err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Limits, Progress
@@ -31,15 +32,17 @@ NODES, LINES = 24, 30
 
 Undrawn = tuple[str, str]
 """A system without a graph, and why."""
+NOT_KEPT = GraphStore()
 
 
 def state_graphs(
-    found: Sequence[CheckedProperty], systems: Sequence[System], options: str
+    found: Sequence[CheckedProperty], systems: Sequence[System], options: str, kept: GraphStore = NOT_KEPT
 ) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
     Systems with the real runs come before those with more or fewer, and marked graphs before others.  Also
-    why some charts have no graph; ``options`` is what a command needs besides.
+    why some charts have no graph; ``options`` is what a command needs besides.  What is ``kept`` is not made
+    again.
     """
     wanted = sorted((s for s in systems if s.charts), key=lambda s: s.over or s.under)
     graphs: dict[str, StateGraphView] = {}
@@ -49,7 +52,8 @@ def state_graphs(
         for system in wanted:
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:
-                one = _state_graph(system, asked, found, options, partial(watch.say, system.name))
+                made = _kept(system, asked, kept, partial(watch.say, system.name))
+                one = made.why if made.graph is None else _view(made, system, found, options)
                 if isinstance(one, StateGraphView):
                     graphs[system.name] = one
                     drawn.add(_charts(system))
@@ -65,34 +69,46 @@ def _charts(system: System) -> frozenset[str]:
     return frozenset(c.name for c in system.charts)
 
 
-def _state_graph(
-    system: System,
-    asked: Sequence[Property],
-    found: Sequence[CheckedProperty],
-    options: str,
-    progress: Progress,
-) -> StateGraphView | str:
-    """The graph, or why there is none."""
+def _kept(system: System, asked: Sequence[Property], kept: GraphStore, progress: Progress) -> MadeGraph:
+    """What is kept of a system, or was made now and is kept then; what time has ended is not."""
     if len(system.charts) > CHARTS:
-        return f"{len(system.charts)} charts"
+        return MadeGraph(None, why=f"{len(system.charts)} charts")
+    known = kept.read(system, asked)
+    if known is not None:
+        return known
+    made, lasting = _state_graph(system, asked, progress)
+    if lasting:
+        kept.write(system, asked, made)
+    return made
+
+
+def _state_graph(
+    system: System, asked: Sequence[Property], progress: Progress
+) -> tuple[MadeGraph, bool]:
+    """The graph, or why there is none, and whether it would be the same again."""
     try:
-        exploration, wanted = _explored(system, asked, progress)
+        exploration, wanted, lasting = _explored(system, asked, progress)
     except ModelError as problem:
-        return str(problem)
+        return MadeGraph(None, why=str(problem)), False
     if stopped := exploration.explored.stopped:
         many = f"more than {counted(len(exploration.explored), 'state', 'states')}"
-        return many if "memory" in stopped else stopped
+        return MadeGraph(None, why=stopped if _by_time(stopped) else many), lasting
     onto = _onto(system, exploration.explored)
     if onto is None:
-        return "no combination of its charts with few nodes, and more than one"
+        return MadeGraph(None, why="no combination of its charts with few nodes, and more than one"), lasting
     ids = tuple(p.id for p in asked)
     marked, unmarked = (ids, ()) if wanted else ((), ids)
     says = f"{', '.join(marked)} {'is' if len(marked) == 1 else 'are'} broken" if marked else ""
-    graph = seen(exploration, onto, wanted, says).with_ways()
-    runs = dict(_paths(graph, found, system))
-    return StateGraphView(
-        system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked
-    )
+    return MadeGraph(seen(exploration, onto, wanted, says).with_ways(), marked, unmarked), lasting
+
+
+def _view(
+    made: MadeGraph, system: System, found: Sequence[CheckedProperty], options: str
+) -> StateGraphView:
+    assert made.graph is not None
+    runs = dict(_paths(made.graph, found, system))
+    again = f"rovercheck graph {system.name}{options}"
+    return StateGraphView(system.name, made.graph, made.marked, runs, again, made.unmarked)
 
 
 def _marked(compared: CheckedProperty, system: System) -> bool:
@@ -103,17 +119,27 @@ def _marked(compared: CheckedProperty, system: System) -> bool:
 
 def _explored(
     system: System, asked: Sequence[Property], progress: Progress
-) -> tuple[Exploration, tuple[str, ...]]:
-    """With the monitors of the properties, and the variables that mark; without where that is too much."""
+) -> tuple[Exploration, tuple[str, ...], bool]:
+    """With the monitors of the properties, and the variables that mark; without where that is too much.
+
+    Also whether it would be the same again: where time ended it, it would not.
+    """
     lowered = lower(system)
     places = _places(system)
+    lasting = True
     if asked:
         question = reduce(lowered, asked)
         goals = tuple(goal.var.name for goal in question.goals)
         exploration = explore(question.system, [*places, *goals], LIMITS, progress)
         if not exploration.explored.stopped:
-            return exploration, goals
-    return explore(lowered, places, LIMITS, progress), ()
+            return exploration, goals, True
+        lasting = not _by_time(exploration.explored.stopped)
+    exploration = explore(lowered, places, LIMITS, progress)
+    return exploration, (), lasting and not _by_time(exploration.explored.stopped)
+
+
+def _by_time(stopped: str) -> bool:
+    return bool(stopped) and "memory" not in stopped
 
 
 def _places(system: System) -> list[str]:
