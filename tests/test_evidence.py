@@ -28,6 +28,7 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import kept_runs
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.catalogue import catalogue, expected

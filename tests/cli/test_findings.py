@@ -15,9 +15,9 @@ from rovercheck.checker.commands.shared.text_wrap import plain
 from rovercheck.checker.commands.shared.told import ToldVerdict, told
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.finding_order import FindingOrder
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, Reachable, always, reachable

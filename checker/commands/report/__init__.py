@@ -159,4 +159,8 @@ def _option(param: click.Parameter, value: object) -> list[str]:
     if isinstance(value, bool):
         return [name if value else max(param.secondary_opts, key=len)]
     values = value if isinstance(value, tuple) else (value,)
-    return [word for one in values for word in (name, FILE if isinstance(one, Path) and name in FILES else str(one))]
+    return [
+        word
+        for one in values
+        for word in (name, FILE if isinstance(one, Path) and name in FILES else str(one))
+    ]

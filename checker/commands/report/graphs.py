@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 
-from rovercheck.checker.commands.report.kept_graphs import GraphStore, MadeGraph
+from rovercheck.checker.commands.report.kept_parts import NOT_KEPT, PageParts
 from rovercheck.checker.commands.shared.output import counted, err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Limits, Progress
@@ -32,11 +33,24 @@ NODES, LINES = 24, 30
 
 Undrawn = tuple[str, str]
 """A system without a graph, and why."""
-NOT_KEPT = GraphStore()
+
+
+@dataclass(frozen=True)
+class MadeGraph:
+    """A graph with the properties whose breaking is marked, and those that would be too much; or why not.
+
+    ``lasting``: it would be the same again, as no time has ended it.
+    """
+
+    graph: StateGraph | None = None
+    marked: tuple[str, ...] = ()
+    unmarked: tuple[str, ...] = ()
+    why: str = ""
+    lasting: bool = True
 
 
 def state_graphs(
-    found: Sequence[CheckedProperty], systems: Sequence[System], options: str, kept: GraphStore = NOT_KEPT
+    found: Sequence[CheckedProperty], systems: Sequence[System], options: str, kept: PageParts = NOT_KEPT
 ) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
@@ -69,42 +83,36 @@ def _charts(system: System) -> frozenset[str]:
     return frozenset(c.name for c in system.charts)
 
 
-def _kept(system: System, asked: Sequence[Property], kept: GraphStore, progress: Progress) -> MadeGraph:
-    """What is kept of a system, or was made now and is kept then; what time has ended is not."""
+def _kept(system: System, asked: Sequence[Property], kept: PageParts, progress: Progress) -> MadeGraph:
+    """What is kept of a system, or is made now."""
     if len(system.charts) > CHARTS:
-        return MadeGraph(None, why=f"{len(system.charts)} charts")
-    known = kept.read(system, asked)
-    if known is not None:
-        return known
-    made, lasting = _state_graph(system, asked, progress)
-    if lasting:
-        kept.write(system, asked, made)
-    return made
+        return MadeGraph(why=f"{len(system.charts)} charts")
+    make = partial(_state_graph, system, asked, progress)
+    return kept.made(MadeGraph, make, lambda one: one.lasting, system, *asked)
 
 
-def _state_graph(
-    system: System, asked: Sequence[Property], progress: Progress
-) -> tuple[MadeGraph, bool]:
-    """The graph, or why there is none, and whether it would be the same again."""
+def _state_graph(system: System, asked: Sequence[Property], progress: Progress) -> MadeGraph:
+    """The graph, or why there is none."""
     try:
         exploration, wanted, lasting = _explored(system, asked, progress)
     except ModelError as problem:
-        return MadeGraph(None, why=str(problem)), False
+        return MadeGraph(why=str(problem), lasting=False)
     if stopped := exploration.explored.stopped:
         many = f"more than {counted(len(exploration.explored), 'state', 'states')}"
-        return MadeGraph(None, why=stopped if _by_time(stopped) else many), lasting
+        return MadeGraph(why=stopped if _by_time(stopped) else many, lasting=lasting)
     onto = _onto(system, exploration.explored)
     if onto is None:
-        return MadeGraph(None, why="no combination of its charts with few nodes, and more than one"), lasting
+        return MadeGraph(
+            why="no combination of its charts with few nodes, and more than one", lasting=lasting
+        )
     ids = tuple(p.id for p in asked)
     marked, unmarked = (ids, ()) if wanted else ((), ids)
     says = f"{', '.join(marked)} {'is' if len(marked) == 1 else 'are'} broken" if marked else ""
-    return MadeGraph(seen(exploration, onto, wanted, says).with_ways(), marked, unmarked), lasting
+    graph = seen(exploration, onto, wanted, says).with_ways()
+    return MadeGraph(graph, marked, unmarked, lasting=lasting)
 
 
-def _view(
-    made: MadeGraph, system: System, found: Sequence[CheckedProperty], options: str
-) -> StateGraphView:
+def _view(made: MadeGraph, system: System, found: Sequence[CheckedProperty], options: str) -> StateGraphView:
     assert made.graph is not None
     runs = dict(_paths(made.graph, found, system))
     again = f"rovercheck graph {system.name}{options}"

@@ -12,8 +12,8 @@ from rovercheck.checker.commands.check.text import summary
 from rovercheck.checker.commands.report import PageOptions
 from rovercheck.checker.commands.report.causes import CauseSearch, with_reasons
 from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
-from rovercheck.checker.commands.report.graphs import NOT_KEPT, state_graphs
-from rovercheck.checker.commands.report.kept_graphs import GraphStore
+from rovercheck.checker.commands.report.graphs import state_graphs
+from rovercheck.checker.commands.report.kept_parts import NOT_KEPT, PageParts
 from rovercheck.checker.commands.report.origin import origin
 from rovercheck.checker.commands.report.pdf import printable, printed
 from rovercheck.checker.commands.report.rover import extras
@@ -33,7 +33,6 @@ from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property
 
 
-
 def report(
     variant: Variant,
     properties: Sequence[Property],
@@ -43,7 +42,8 @@ def report(
 ) -> Exit:
     """Decide the properties and write the page, all of it or nothing.
 
-    Raises ``UsageError`` where a file cannot be written or printed, before anything is searched if that is certain.
+    Raises ``UsageError`` where a file cannot be written or printed, before anything is searched if that is
+    certain.
     """
     if not properties:
         err.print("Nothing to report on: the selection holds no property.")
@@ -67,7 +67,7 @@ def report(
         if options.premises is not False:
             asked = patient(search, LONG if options.premises else PATIENCE)
             cases_known = cases(found, model.systems, asked, known)
-        write(page(model, variant, found, options, cases_known, GraphStore(search.store)), output)
+        write(page(model, variant, found, options, cases_known, PageParts(search.store)), output)
         if options.pdf is not None:
             printed(output, options.pdf)
     except Unwritable as error:
@@ -87,14 +87,14 @@ def page(
     found: Sequence[CheckedProperty],
     options: PageOptions,
     cases_known: Mapping[str, PremiseCase] | None = None,
-    kept: GraphStore = NOT_KEPT,
+    kept: PageParts = NOT_KEPT,
 ) -> str:
     """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id.
 
-    State graphs that are ``kept`` are not made again.
+    Parts that are ``kept`` are not made again.
     """
     own = (
-        extras(variant, found, not options.no_repairs)
+        extras(variant, found, not options.no_repairs, kept)
         if model.path is None
         else Extras(depends=partial(of_verdict, variant=variant))
     )

@@ -5,7 +5,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 
-from rovercheck.checker.render.review.model import PROVED, UNKNOWN, VIOLATED, HazardRow, Review, ReviewedProperty
+from rovercheck.checker.render.review.model import (
+    PROVED,
+    UNKNOWN,
+    VIOLATED,
+    HazardRow,
+    Review,
+    ReviewedProperty,
+)
 
 WORST = 10
 """Findings that the first page names."""

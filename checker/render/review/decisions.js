@@ -127,6 +127,8 @@
     for (const button of all('th > button', copy)) button.replaceWith(...button.childNodes);
     for (const entry of all('details[open]', copy)) entry.open = false;
     for (const hidden of all('.hide, .row-hidden', copy)) hidden.classList.remove('hide', 'row-hidden');
+    const end = one('body', copy).lastChild;
+    if (end.nodeType === Node.TEXT_NODE) end.remove();
     return copy;
   }
   one('.d-save').addEventListener('click', () => {
