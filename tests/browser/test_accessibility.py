@@ -1,5 +1,6 @@
 """What axe-core finds on the review page, in light and dark, closed and opened, wide and narrow."""
 
+from dataclasses import replace
 from importlib.resources import files
 from typing import Any
 
@@ -17,8 +18,6 @@ SEVERITY = {"H-1": "catastrophic", "H-2": "marginal", "": "unrated"}
 
 @pytest.fixture(scope="module")
 def document() -> str:
-    from dataclasses import replace
-
     rated = tuple(
         replace(one, hazard=id, severity=SEVERITY[id], since="2026-03-01", lapsed=id == "H-2")
         for one, id in zip(ALL, ("H-1", "H-2", "", "H-1", "H-2", "", "H-1"), strict=True)

@@ -1,6 +1,7 @@
 """Decisions on findings: made on the page, saved with it, and exported as ``accept --from`` reads them."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,14 +12,12 @@ from rovercheck.checker.render.review import render
 from tests.browser.conftest import Show
 from tests.render.toy_review import ALL, BROKEN, EVIL, review
 
-EXPIRED = {"accepted": False, "lapsed": True, "decision": "accepted until 2026-01-01, which is over: x"}
+OVER = "accepted until 2026-01-01, which is over: x"
 
 
 @pytest.fixture(scope="module")
 def document() -> str:
-    from dataclasses import replace
-
-    return render(review(tuple(replace(p, **EXPIRED) if p.id == "T-2" else p for p in ALL)))
+    return render(review(tuple(replace(p, lapsed=True, decision=OVER) if p.id == "T-2" else p for p in ALL)))
 
 
 @pytest.fixture
@@ -122,7 +121,7 @@ def test_decisions_outlive_the_page_in_the_browser_until_they_are_taken_back(ope
 
 
 def test_where_the_browser_keeps_nothing_that_is_said(opened: Page) -> None:
-    opened.evaluate("Storage.prototype.setItem = () => { throw new DOMException('full') }")
+    opened.evaluate("void (Storage.prototype.setItem = () => { throw new DOMException('full') })")
     decide(opened, "T-1", "repair")
     expect(opened.locator(".d-status")).to_contain_text("save it before you close it")
 
