@@ -1,7 +1,7 @@
 """The review page: one HTML file with every verdict, its evidence and how to get it again.
 
-It needs no network and no program but a browser.  Without scripts all of it can still be read, except
-what proofs rest on, the moving pictures of traces, and decisions.
+It needs no network and no program but a browser.  Without scripts its texts can still be read, except
+what proofs rest on; pictures and decisions need them.
 """
 
 import re
@@ -77,8 +77,6 @@ def render(review: Review) -> str:
         areas=[(area, list(of)) for area, of in groupby(review.properties, key=_area)],
         by_id={p.id: p for p in review.properties},
         repairs=_by_property(review),
-        sizes={name: size(chart) for name, chart in review.charts.items()},
-        chart_images={name: _image(chart) for name, chart in review.charts.items()},
         told={id: part.body for id, part in told.items()},
         heading=heading,
         ending=ending,
@@ -93,6 +91,7 @@ def render(review: Review) -> str:
         link=link,
         title_of=title_of,
         inside=inside,
+        drawn_in=drawn_in,
         **_first_pages(review),
     )
     body = TEMPLATES.get_template("review.html").render(shown)
@@ -104,6 +103,10 @@ def render(review: Review) -> str:
     for one in review.properties:
         if not one.finding:
             packed.add(inside(one.id), [Part(about(one))])
+    picture = TEMPLATES.get_template("chart.html")
+    for name, chart in review.charts.items():
+        drawn = picture.render(name=name, width=size(chart)[0], image=_image(chart))
+        packed.add(drawn_in(name), [Part(Markup(drawn))])
     return page(review.title, [*parts, *packed.parts()])
 
 
@@ -208,6 +211,11 @@ def _by_property(review: Review) -> Mapping[str, list[Any]]:
         for id, *_ in one.proofs:
             found.setdefault(id, []).append(one)
     return found
+
+
+def drawn_in(name: str) -> str:
+    """The name of the fragment with the picture of a chart."""
+    return f"chart {name}"
 
 
 def _pictures(

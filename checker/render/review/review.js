@@ -126,7 +126,7 @@
   let gallery = null;
   async function unpack(places) {
     for (const place of places) {
-      if (!place.classList.contains('body')) {
+      if (!place.matches('.body, .picture')) {
         gallery = gallery || (one('.gallery') ? fill(one('.gallery')) : true);
         await gallery;
       }
