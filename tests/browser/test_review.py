@@ -127,6 +127,7 @@ def test_a_graph_that_is_closed_while_the_page_is_printed_is_there_again(opened:
 
 
 def test_each_trace_has_pictures_of_its_own(opened: Page) -> None:
+    opened.evaluate("document.querySelectorAll('.area').forEach(area => area.open = true)")
     for id in ("T-1", "T-2", "T-7"):
         opened.locator(f"#{id} summary").first.click()
         expect(opened.locator(f"#{id} .tl")).to_be_visible()

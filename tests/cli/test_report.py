@@ -17,6 +17,7 @@ from rovercheck.checker.commands.report.rover import coverage
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.rover import rover
+from rovercheck.checker.render.review import inside
 from rovercheck.checker.render.review.model import StateGraphView
 from rovercheck.checker.results.verdict import Unknown, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
@@ -25,6 +26,7 @@ from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.rover import systems
 from tests.render.test_page import Reader
+from tests.render.test_review import unpacked
 from tests.render.zoo import long_trace
 from tests.traces import changed
 
@@ -36,11 +38,16 @@ CHEAP = ["PB1-15", "PB1-11"]
 def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Exit, str]:
     """The page on two cheap properties, one violated and one proved and certified."""
     file = tmp_path_factory.mktemp("report") / "review.html"
-    code = run(["report", *CHEAP, "--certify", "--explain", "--no-repairs", "-o", str(file)])
+    code = run(["report", *CHEAP, "--certify", "--no-repairs", "-o", str(file)])
     return code, file.read_text(encoding="utf-8")
 
 
 def entry(document: str, id: str) -> str:
+    """The section of a property, with what a proof keeps packed."""
+    return shown(document, id) + unpacked(document).get(inside(id), "")
+
+
+def shown(document: str, id: str) -> str:
     start = document.index(f'<details class="entry property{"" if id == "PB1-11" else " finding"}" id="{id}"')
     return document[start : document.index("</details>", start)]
 
@@ -86,7 +93,7 @@ def test_a_selection_shows_only_what_concerns_it(made: tuple[Exit, str]) -> None
 
 def test_the_page_shows_how_it_was_made_but_no_place_and_no_time(made: tuple[Exit, str]) -> None:
     document = made[1]
-    assert "rovercheck report PB1-15 PB1-11 --output FILE --certify --no-repairs --explain" in document
+    assert "rovercheck report PB1-15 PB1-11 --output FILE --certify --no-repairs" in document
     assert "z3-solver" in document and "sha256 " in document
     assert "pytest" not in document and "Made on" not in document
 
@@ -103,11 +110,15 @@ def test_the_command_holds_what_differs_from_the_defaults() -> None:
         "--timeout",
         "5",
         "--full",
+        "--no-explain",
+        "--pdf",
+        "x.pdf",
     ]
     with verb.make_context("report", line) as context:
         shown = command(context)
     assert shown == (
-        "rovercheck report B-1 --full --output FILE --interpret S43=AND --interpret S44=any --timeout 5.0"
+        "rovercheck report B-1 --full --output FILE --pdf FILE --no-explain --interpret S43=AND "
+        "--interpret S44=any --timeout 5.0"
     )
 
 
@@ -225,11 +236,10 @@ FULL = always("FULL", "Something.", that=implies(chart.active("On"), lamp), cove
 def test_a_proof_about_nothing_is_a_finding(tmp_path: Path) -> None:
     model, file = tmp_path / "hall.py", tmp_path / "x.html"
     model.write_text(EMPTY, encoding="utf-8")
-    run(["report", "--model", str(model), "--premises", "-o", str(file)])
+    run(["report", "--model", str(model), "-o", str(file)])
     document = file.read_text(encoding="utf-8")
     assert "it NEVER occurs, so the proof is vacuous" in entry(document, "EMPTY")
-    start = document.index('id="FULL"')
-    assert "it occurs: " in document[start : document.index("</details>", start)]
+    assert "it occurs: " in unpacked(document)[inside("FULL")]
     assert 'It never does for <a class="violated" href="#EMPTY">EMPTY</a>.' in document
 
 

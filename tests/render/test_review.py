@@ -11,12 +11,27 @@ from urllib.parse import unquote
 
 import pytest
 
-from rovercheck.checker.render.review import grouped, render, title_of
+from rovercheck.checker.render.review import grouped, inside, render, title_of
 from rovercheck.checker.render.review.fragments import TOGETHER, PackedFragments
 from rovercheck.checker.render.review.model import HazardRow
 from rovercheck.checker.render.review.traces import shared
 from tests.render.test_page import Reader
-from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, GRAPH, OPEN, RUN, SAME, checked, review
+from tests.render.toy_review import (
+    ALL,
+    BROKEN,
+    CHANGED,
+    EVIL,
+    FINE,
+    GRAPH,
+    OPEN,
+    PART,
+    RUN,
+    SAME,
+    checked,
+    review,
+)
+
+DRAWN = ("chart Relay", "chart Nested")
 
 
 @pytest.fixture(scope="module")
@@ -55,10 +70,12 @@ def test_every_link_leads_to_something_on_the_page(page: Reader) -> None:
     assert [x for x in links if not x.startswith("#") or unquote(x[1:]) not in ids] == []
 
 
-def test_no_text_of_a_model_becomes_markup(page: Reader) -> None:
+def test_no_text_of_a_model_becomes_markup(page: Reader, document: str) -> None:
     assert "document.title='broken into'" not in "".join(t for k, t in page.scripts if not k)
     assert all("onerror" not in attributes for _, attributes in page.elements)
-    assert {a["src"][:19] for tag, a in page.elements if tag == "img" and a["src"]} == {"data:image/svg+xml,"}
+    assert [tag for tag, _ in page.elements if tag == "img"] == []
+    pictures = [a for name in DRAWN for tag, a in Reader(unpacked(document)[name]).elements if tag == "img"]
+    assert {(a["src"] or "")[:19] for a in pictures} == {"data:image/svg+xml,"} and len(pictures) == 2
 
 
 def test_nothing_is_fetched(page: Reader, document: str) -> None:
@@ -138,7 +155,7 @@ def test_what_is_missing_is_said_or_left_out() -> None:
     assert ids.isdisjoint(
         {f"section-{s}" for s in ("findings", "requirements", "repairs", "readings", "graphs")}
     )
-    assert "no generated tests" in shown
+    assert "no generated tests" in shown and "Open points</h3>\n<p>None.</p>" in shown
     assert "not checked whether" not in shown
     assert "not checked whether" in render(replace(bare, properties=(replace(FINE, premise=""),)))
 
@@ -159,16 +176,25 @@ def unpacked(document: str) -> dict[str, str]:
 
 def test_moving_pictures_are_kept_for_every_trace_and_each_chart_once(document: str) -> None:
     fragments = unpacked(document)
-    assert set(fragments) == {"T-1", "T-2", "T-7", "*", "graph toy"}
+    proofs = {inside(one.id) for one in ALL if not one.finding}
+    assert set(fragments) == {"T-1", "T-2", "T-7", "*", "graph toy", *proofs, *DRAWN}
     assert all(fragments[id].count('<section class="player') == 1 for id in ("T-1", "T-2", "T-7"))
     assert fragments["*"].count("<template") == 1
     assert "told" in fragments["T-7"] and "told" not in fragments["T-1"]
 
 
+def test_what_proofs_rest_on_is_packed_and_findings_are_not(document: str) -> None:
+    fragments = unpacked(document)
+    assert "accepted: 4 obligations" in fragments[inside("T-5")]
+    assert "accepted: 4 obligations" not in document and inside("T-1") not in fragments
+    assert "&lt;img src=x" in fragments[inside(PART.id)] and "<img" not in fragments[inside(PART.id)]
+
+
 def test_many_fragments_are_kept_in_several_parcels() -> None:
     many = tuple(checked(f"T-{i}", "proved", trace=RUN) for i in range(TOGETHER + 2))
     document = render(review(many))
-    assert set(unpacked(document)) == {"*", "graph toy", *(p.id for p in many)}
+    fragments = set(unpacked(document))
+    assert fragments == {"*", "graph toy", *DRAWN, *(p.id for p in many), *(inside(p.id) for p in many)}
     assert len(PackedFragments().parts()) == 0
 
 
@@ -190,7 +216,7 @@ def test_a_state_graph_says_how_far_to_trust_it_without_scripts(document: str) -
 
 def test_a_page_with_graphs_and_no_run_needs_no_gallery() -> None:
     shown = render(review((FINE,)))
-    assert set(unpacked(shown)) == {"graph toy"} and 'class="gallery"' not in shown
+    assert set(unpacked(shown)) == {"graph toy", inside(FINE.id), *DRAWN} and 'class="gallery"' not in shown
 
 
 def test_equal_charts_become_one_object() -> None:

@@ -24,20 +24,27 @@ from rovercheck.checker.engines import LOADED
 
 FILE = "FILE"
 """What stands for the file in the command that the page shows."""
+FILES = ("--output", "--pdf")
 
 
 @dataclass(frozen=True)
 class PageOptions:
     """What the page shows of properties, and how they are decided.
 
-    ``command`` is the command line itself; ``date`` is shown as given.  ``some``: properties were selected.
+    ``premises`` and ``explain`` are None where a user wrote nothing: then each is looked for as long as
+    ``check`` and ``trace`` do.  ``command`` is the command line itself; ``date``, ``document`` and
+    ``reviewer`` are shown as given.  ``pdf`` is a file to print the page into.  ``some``: properties were
+    selected.
     """
 
     certify: bool = False
     no_repairs: bool = False
-    premises: bool = False
-    explain: bool = False
+    premises: bool | None = None
+    explain: bool | None = None
     date: str = ""
+    document: str = ""
+    reviewer: str = ""
+    pdf: Path | None = None
     jobs: int | None = None
     memory: float = 8.0
     command: str = ""
@@ -54,11 +61,27 @@ class PageOptions:
     metavar=FILE,
     help="The HTML file to write.",
 )
+@click.option(
+    "--pdf",
+    type=click.Path(path_type=Path),
+    metavar=FILE,
+    help="Print the page into this file too, with an installed Chromium.",
+)
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option("--no-repairs", is_flag=True, help="Without deciding the proposed repairs.")
-@click.option("--premises", is_flag=True, help="Also whether the premises of proofs occur.")
-@click.option("--explain", is_flag=True, help="Also which inputs force the end of each counterexample.")
+@click.option(
+    "--premises/--no-premises",
+    default=None,
+    help="Search longer for whether the premises of proofs occur, or not at all.",
+)
+@click.option(
+    "--explain/--no-explain",
+    default=None,
+    help="Look for the inputs that force each counterexample as long as it takes, or not at all.",
+)
 @click.option("--date", default="", metavar="TEXT", help="A date to show; by default there is none.")
+@click.option("--document", default="", metavar="TEXT", help="The revision of the document, for the cover.")
+@click.option("--reviewer", default="", metavar="NAME", help="Who reviews it, for the cover.")
 @click.option(
     "--jobs",
     type=click.IntRange(min=1),
@@ -133,7 +156,11 @@ def command(context: click.Context) -> str:
 
 def _option(param: click.Parameter, value: object) -> list[str]:
     name = max(param.opts, key=len)
-    if value is True:
-        return [name]
+    if isinstance(value, bool):
+        return [name if value else max(param.secondary_opts, key=len)]
     values = value if isinstance(value, tuple) else (value,)
-    return [word for one in values for word in (name, FILE if name == "--output" else str(one))]
+    return [
+        word
+        for one in values
+        for word in (name, FILE if isinstance(one, Path) and name in FILES else str(one))
+    ]

@@ -1,25 +1,49 @@
 """What a reviewer may want on top of verdicts: what forces a counterexample."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from time import process_time
+from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.engines import Progress
 from rovercheck.checker.explain.explanation import explained
+from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.runs.known_runs import run_in
+from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 
+if TYPE_CHECKING:
+    from rovercheck.checker.store.verdicts import VerdictStore
 
-def with_reasons(found: Sequence[CheckedProperty], systems: Mapping[str, System]) -> list[CheckedProperty]:
-    """The same verdicts, each counterexample with the inputs that force its end.
 
-    It takes as long as it takes: a limit of time would make the page depend on the machine.
+@dataclass(frozen=True)
+class CauseSearch:
+    """Where causes are kept that are not looked for again, and for how many seconds each other is.
+
+    None: as long as it takes.  Seconds are of computing, which a busy machine does not shorten.
     """
+
+    store: "VerdictStore | None" = None
+    seconds: float | None = None
+
+
+PATIENT = CauseSearch()
+"""A limit of time would make a page depend on the machine."""
+
+
+def with_reasons(
+    found: Sequence[CheckedProperty], systems: Mapping[str, System], search: CauseSearch = PATIENT
+) -> list[CheckedProperty]:
+    """The same verdicts, each counterexample with the inputs that force its end; as it is where they are not
+    found in time."""
     broken = [c for c in found if _run(c) is not None]
     with Watch(err, len(broken), of="findings") as watch:
-        return [_with_reason(c, systems, watch) for c in found]
+        return [_with_reason(c, systems, search, watch) for c in found]
 
 
 def _run(compared: CheckedProperty) -> Trace | None:
@@ -28,12 +52,34 @@ def _run(compared: CheckedProperty) -> Trace | None:
     return verdict.because if isinstance(verdict, Violated) and isinstance(verdict.because, Trace) else None
 
 
-def _with_reason(compared: CheckedProperty, systems: Mapping[str, System], watch: Watch) -> CheckedProperty:
+def _with_reason(
+    compared: CheckedProperty, systems: Mapping[str, System], search: CauseSearch, watch: Watch
+) -> CheckedProperty:
     run, prop = _run(compared), compared.result.property
     if run is None:
         return compared
     task = f"{prop.id}: what forces it"
-    forced = explained(run, prop, systems[run.system.name], lambda line: watch.say(task, line))
+    forced = _forced(run, prop, systems[run.system.name], search, lambda line: watch.say(task, line))
     watch.finished(task)
     verdict = Violated(forced, compared.verdict.engine)
     return replace(compared, result=replace(compared.result, verdict=verdict))
+
+
+def _forced(run: Trace, prop: Property, system: System, search: CauseSearch, progress: Progress) -> Trace:
+    """The run with what forces its end: what is kept of it, or found now in time, which is then kept."""
+    store = search.store
+    name = store.about("cause", prop, system, run_in(run)) if store is not None else None
+    if store is not None and (known := store.necessary(name)) is not None:
+        return replace(run, necessary=known)
+    start = process_time()
+
+    def late() -> bool:
+        return search.seconds is not None and process_time() - start > search.seconds
+
+    try:
+        found = explained(run, prop, system, progress, late)
+    except OutOfTime:
+        return run
+    if store is not None and found.necessary is not None and found.necessary.minimal:
+        store.write_necessary(name, found.necessary)
+    return found

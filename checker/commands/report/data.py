@@ -139,6 +139,7 @@ def checked(compared: CheckedProperty, model: Model, extras: Extras) -> Reviewed
         effect=entry.effect if on_record and not compared.variant else "",
         since=entry.since.isoformat() if on_record and entry.since else "",
         decision=decision(entry) if on_record and verdict.word != "proved" else "",
+        accepted=on_record and entry.accepted is not None and not entry.accepted.expired,
         lapsed=compared.lapsed is not None,
         quiet=isinstance(because, Exhausted) and because.skipped,
         on=prop.on if prop.on != compared.result.system else "",

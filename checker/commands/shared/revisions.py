@@ -30,6 +30,18 @@ def commit(root: Path, revision: str) -> str:
     return found
 
 
+def commit_of(path: Path) -> str:
+    """The commit of a file or folder that git keeps, and whether it has changed since; empty if none does."""
+    folder = path if path.is_dir() else path.parent
+    try:
+        kept = _git(folder, "ls-files", "--error-unmatch", "--", str(path.absolute()))
+        name = None if kept is None else _git(folder, "rev-parse", "--short=10", "HEAD")
+        changed = _git(folder, "status", "--porcelain", "--", str(path.absolute())) if name else None
+    except UsageError:
+        return ""
+    return f"{name}, with changes that are not committed" if name and changed else name or ""
+
+
 @contextmanager
 def exported(root: Path, revision: str) -> Iterator[Path]:
     """The files of a revision, in a folder that is removed at the end.  Raises ``UsageError``."""

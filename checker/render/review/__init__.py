@@ -1,7 +1,7 @@
 """The review page: one HTML file with every verdict, its evidence and how to get it again.
 
-It needs no network and no program but a browser.  Without scripts all of it can still be read, except
-the moving pictures of traces.
+It needs no network and no program but a browser.  Without scripts its texts can still be read, except
+what proofs rest on; pictures and decisions need them.
 """
 
 import re
@@ -14,8 +14,16 @@ from urllib.parse import quote
 from markupsafe import Markup
 
 from rovercheck.checker.render import renderers
-from rovercheck.checker.render.page import Part, page, templates
+from rovercheck.checker.render.page import Part, data, page, templates
 from rovercheck.checker.render.review import traces
+from rovercheck.checker.render.review.cover import (
+    decision_state,
+    hazard_totals,
+    identity,
+    open_points,
+    state_totals,
+    worst,
+)
 from rovercheck.checker.render.review.fragments import PackedFragments
 from rovercheck.checker.render.review.model import PROVED, HazardRow, Review, ReviewedProperty, StateGraphView
 from rovercheck.checker.render.statechart_svg import size
@@ -37,6 +45,23 @@ STATES = {
     "proved": "proved",
 }
 """What the matrix says of a requirement."""
+SEVERITIES = ("catastrophic", "critical", "marginal", "unrated", "negligible")
+"""The gravest first, by which tables are sorted."""
+SECTIONS = {
+    "summary": "Summary",
+    "findings": "Findings",
+    "requirements": "Requirements",
+    "properties": "Properties",
+    "repairs": "Proposed repairs",
+    "charts": "Charts",
+    "graphs": "State graphs",
+    "readings": "Interpretations",
+    "systems": "Systems",
+    "limits": "What is not covered",
+    "making": "How to reproduce",
+}
+"""The sections in their order, with their headings."""
+SCRIPTS = ("decisions.js", "review.js", "tables.js")
 GALLERY = "*"
 """The name of the fragment with the pictures of charts that all players share."""
 
@@ -46,14 +71,12 @@ def render(review: Review) -> str:
     found = {p.id: p.trace for p in review.properties if p.trace is not None}
     runs = traces.shared(found, review.charts.values())
     told = {p.id: traces.story(runs[p.id]) for p in review.findings if p.id in runs}
-    body = TEMPLATES.get_template("review.html").render(
+    shown = dict(
         review=review,
         groups=grouped(review.findings, review.hazards),
         areas=[(area, list(of)) for area, of in groupby(review.properties, key=_area)],
         by_id={p.id: p for p in review.properties},
         repairs=_by_property(review),
-        sizes={name: size(chart) for name, chart in review.charts.items()},
-        chart_images={name: _image(chart) for name, chart in review.charts.items()},
         told={id: part.body for id, part in told.items()},
         heading=heading,
         ending=ending,
@@ -67,11 +90,53 @@ def render(review: Review) -> str:
         sign=sign,
         link=link,
         title_of=title_of,
+        inside=inside,
+        drawn_in=drawn_in,
+        **_first_pages(review),
     )
-    shown = [*told.values(), *(trust(g.graph) for g in review.graphs)]
-    styles = dict.fromkeys(text for part in shown for text in part.styles)
-    parts = [Part(Markup(body), (*styles, own("review.css")), (own("review.js"),))]
-    return page(review.title, [*parts, *_pictures(runs, told, review.graphs).parts()])
+    body = TEMPLATES.get_template("review.html").render(shown)
+    styled = [*told.values(), *(trust(g.graph) for g in review.graphs)]
+    styles = dict.fromkeys(text for part in styled for text in part.styles)
+    parts = [Part(Markup(body), (*styles, own("review.css")), tuple(map(own, SCRIPTS)))]
+    packed = _pictures(runs, told, review.graphs)
+    about = TEMPLATES.get_template("property.html").make_module(shown).about  # type: ignore[attr-defined]
+    for one in review.properties:
+        if not one.finding:
+            packed.add(inside(one.id), [Part(about(one))])
+    picture = TEMPLATES.get_template("chart.html")
+    for name, chart in review.charts.items():
+        drawn = picture.render(name=name, width=size(chart)[0], image=_image(chart))
+        packed.add(drawn_in(name), [Part(Markup(drawn))])
+    return page(review.title, [*parts, *packed.parts()])
+
+
+def _first_pages(review: Review) -> dict[str, Any]:
+    """What the cover, the summary and the table of findings show."""
+    there = {
+        "findings": review.findings,
+        "requirements": review.demands,
+        "repairs": review.repairs,
+        "charts": review.charts,
+        "graphs": review.graphs,
+        "readings": review.interpretations,
+    }
+    kept = {"page": identity(review), "saved": "", "reviewer": review.origin.reviewer, "decisions": {}}
+    return {
+        "worst": worst(review),
+        "hazards": hazard_totals(review),
+        "open": open_points(review),
+        "totals": list(state_totals(review, STATES)),
+        "severities": SEVERITIES,
+        "decision_state": decision_state,
+        "contents": [(name, words) for name, words in SECTIONS.items() if there.get(name, True)],
+        "kept": data(kept, "decisions-kept"),
+        "accept": " ".join(filter(None, ("rovercheck accept --from decisions.json", review.origin.options))),
+    }
+
+
+def inside(id: str) -> str:
+    """The name of the fragment that tells what the proof of a property rests on."""
+    return f"body {id}"
 
 
 def own(name: str) -> str:
@@ -146,6 +211,11 @@ def _by_property(review: Review) -> Mapping[str, list[Any]]:
         for id, *_ in one.proofs:
             found.setdefault(id, []).append(one)
     return found
+
+
+def drawn_in(name: str) -> str:
+    """The name of the fragment with the picture of a chart."""
+    return f"chart {name}"
 
 
 def _pictures(

@@ -12,7 +12,7 @@ from rovercheck.checker.render.page import Part, data
 
 KIND = "packed"
 """The class of the block that holds them; ``review.js`` unpacks what it names."""
-TOGETHER = 24
+TOGETHER = 48
 """Entries in one parcel: similar fragments side by side compress four times better than alone."""
 
 

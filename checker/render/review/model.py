@@ -61,8 +61,9 @@ class ReviewedProperty:
     """Its place among all properties, the gravest first."""
     since: str = ""
     decision: str = ""
+    accepted: bool = False
     lapsed: bool = False
-    """Since when a finding is known, who lives with it, and whether the time for that is over."""
+    """Since when a finding is known, who lives with it, whether that holds or its time is over."""
     on: str = ""
     """The system it is stated of, where the verdict is about another one."""
     quiet: bool = False
@@ -75,6 +76,11 @@ class ReviewedProperty:
     def finding(self) -> bool:
         """Whether a reviewer has to look at it: violated, undecided, not as expected, or vacuous."""
         return self.verdict != PROVED or not self.as_expected or self.vacuous
+
+    @property
+    def undecided(self) -> bool:
+        """Whether it is violated, and nobody has accepted it."""
+        return self.verdict == VIOLATED and not self.accepted
 
     @property
     def says(self) -> str:
@@ -217,7 +223,11 @@ class StateGraphView:
 
 @dataclass(frozen=True)
 class ReviewOrigin:
-    """How the page was made: enough to make it again and to compare it."""
+    """How the page was made: enough to make it again and to compare it.
+
+    ``document`` is the revision of the document, ``commit`` that of what was checked, as far as they are
+    known.
+    """
 
     command: str
     code: int
@@ -226,6 +236,11 @@ class ReviewOrigin:
     digests: tuple[tuple[str, str], ...] = ()
     date: str = ""
     variant: str = ""
+    document: str = ""
+    commit: str = ""
+    reviewer: str = ""
+    options: str = ""
+    """What a command needs to be about the same model."""
 
 
 @dataclass(frozen=True)

@@ -48,10 +48,16 @@
       entry.classList.toggle('hide', !hit);
       count += hit;
     });
-    for (const stub of all('.stub')) stub.classList.toggle('hide', filtered);
+    for (const stub of all('.stub, .decisions')) stub.classList.toggle('hide', filtered);
     for (const part of all('.cause, .group, main > section')) {
       const kept = part.querySelector('.entry:not(.hide)');
       part.classList.toggle('hide', filtered && !kept);
+    }
+    for (const group of all('.area')) {
+      const kept = filtered && group.querySelector('.entry:not(.hide)');
+      if (kept && !group.open) group.dataset.auto = '';
+      if (kept || 'auto' in group.dataset) group.open = Boolean(kept);
+      if (!filtered) delete group.dataset.auto;
     }
     reset.hidden = !filtered;
     hits.textContent = filtered ? `${count} of ${entries.length} entries` : '';
@@ -95,7 +101,7 @@
     });
   }
 
-  // --- pictures of traces, unpacked when their entry is opened
+  // --- proofs and pictures of traces, unpacked when their entry is opened
 
   let printed = [];
   let parcels = null;
@@ -113,30 +119,39 @@
     return JSON.parse(await new Response(stream).text());
   }
   async function fill(place) {
+    place.dataset.begun = '';
     place.innerHTML = await unpacked(place.dataset.late);
     place.dispatchEvent(new Event('page:added', { bubbles: true }));
   }
   let gallery = null;
   async function unpack(places) {
-    gallery = gallery || (one('.gallery') ? fill(one('.gallery')) : true);
-    await gallery;
-    for (const place of places) await fill(place);
+    for (const place of places) {
+      if (!place.matches('.body, .picture')) {
+        gallery = gallery || (one('.gallery') ? fill(one('.gallery')) : true);
+        await gallery;
+      }
+      await fill(place);
+      begin(place);
+    }
+  }
+  function begin(within) {
+    const places = all('.late:not([data-begun])', within);
+    for (const place of places) place.dataset.begun = '';
+    if (places.length) unpack(places).catch(() => places.forEach(missing));
   }
   function missing(place) {
-    if (!place.hasChildNodes()) place.textContent = 'This browser cannot unpack what moves here.';
+    if (!place.hasChildNodes()) place.textContent = 'This browser cannot unpack what is kept here.';
   }
   document.addEventListener('toggle', (event) => {
     const entry = event.target;
     if (!entry.open || printed.length || !entry.classList.contains('entry')) return;
-    const places = all('.late:not([data-begun])', entry);
-    for (const place of places) place.dataset.begun = '';
-    if (places.length) unpack(places).catch(() => places.forEach(missing));
+    begin(entry);
   }, true);
 
   // --- print: findings open without their moving pictures, afterwards as before
 
   addEventListener('beforeprint', () => {
-    printed = all('details.finding:not([open]), details.means:not([open])');
+    printed = all('details.finding:not([open]), details.means:not([open]), details.area:not([open])');
     for (const entry of printed) entry.open = true;
   });
   addEventListener('afterprint', () => {
