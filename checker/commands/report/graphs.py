@@ -2,10 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 
-from rovercheck.checker.commands.report.kept_parts import NOT_KEPT, PageParts
 from rovercheck.checker.commands.shared.output import counted, err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Limits, Progress
@@ -35,28 +33,13 @@ Undrawn = tuple[str, str]
 """A system without a graph, and why."""
 
 
-@dataclass(frozen=True)
-class MadeGraph:
-    """A graph with the properties whose breaking is marked, and those that would be too much; or why not.
-
-    ``lasting``: it would be the same again, as no time has ended it.
-    """
-
-    graph: StateGraph | None = None
-    marked: tuple[str, ...] = ()
-    unmarked: tuple[str, ...] = ()
-    why: str = ""
-    lasting: bool = True
-
-
 def state_graphs(
-    found: Sequence[CheckedProperty], systems: Sequence[System], options: str, kept: PageParts = NOT_KEPT
+    found: Sequence[CheckedProperty], systems: Sequence[System], options: str
 ) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
     Systems with the real runs come before those with more or fewer, and marked graphs before others.  Also
-    why some charts have no graph; ``options`` is what a command needs besides.  What is ``kept`` is not made
-    again.
+    why some charts have no graph; ``options`` is what a command needs besides.
     """
     wanted = sorted((s for s in systems if s.charts), key=lambda s: s.over or s.under)
     graphs: dict[str, StateGraphView] = {}
@@ -66,8 +49,7 @@ def state_graphs(
         for system in wanted:
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:
-                made = _kept(system, asked, kept, partial(watch.say, system.name))
-                one = made.why if made.graph is None else _view(made, system, found, options)
+                one = _state_graph(system, asked, found, options, partial(watch.say, system.name))
                 if isinstance(one, StateGraphView):
                     graphs[system.name] = one
                     drawn.add(_charts(system))
@@ -83,40 +65,34 @@ def _charts(system: System) -> frozenset[str]:
     return frozenset(c.name for c in system.charts)
 
 
-def _kept(system: System, asked: Sequence[Property], kept: PageParts, progress: Progress) -> MadeGraph:
-    """What is kept of a system, or is made now."""
-    if len(system.charts) > CHARTS:
-        return MadeGraph(why=f"{len(system.charts)} charts")
-    make = partial(_state_graph, system, asked, progress)
-    return kept.made(MadeGraph, make, lambda one: one.lasting, system, *asked)
-
-
-def _state_graph(system: System, asked: Sequence[Property], progress: Progress) -> MadeGraph:
+def _state_graph(
+    system: System,
+    asked: Sequence[Property],
+    found: Sequence[CheckedProperty],
+    options: str,
+    progress: Progress,
+) -> StateGraphView | str:
     """The graph, or why there is none."""
+    if len(system.charts) > CHARTS:
+        return f"{len(system.charts)} charts"
     try:
-        exploration, wanted, lasting = _explored(system, asked, progress)
+        exploration, wanted = _explored(system, asked, progress)
     except ModelError as problem:
-        return MadeGraph(why=str(problem), lasting=False)
+        return str(problem)
     if stopped := exploration.explored.stopped:
         many = f"more than {counted(len(exploration.explored), 'state', 'states')}"
-        return MadeGraph(why=stopped if _by_time(stopped) else many, lasting=lasting)
+        return many if "memory" in stopped else stopped
     onto = _onto(system, exploration.explored)
     if onto is None:
-        return MadeGraph(
-            why="no combination of its charts with few nodes, and more than one", lasting=lasting
-        )
+        return "no combination of its charts with few nodes, and more than one"
     ids = tuple(p.id for p in asked)
     marked, unmarked = (ids, ()) if wanted else ((), ids)
     says = f"{', '.join(marked)} {'is' if len(marked) == 1 else 'are'} broken" if marked else ""
     graph = seen(exploration, onto, wanted, says).with_ways()
-    return MadeGraph(graph, marked, unmarked, lasting=lasting)
-
-
-def _view(made: MadeGraph, system: System, found: Sequence[CheckedProperty], options: str) -> StateGraphView:
-    assert made.graph is not None
-    runs = dict(_paths(made.graph, found, system))
-    again = f"rovercheck graph {system.name}{options}"
-    return StateGraphView(system.name, made.graph, made.marked, runs, again, made.unmarked)
+    runs = dict(_paths(graph, found, system))
+    return StateGraphView(
+        system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked
+    )
 
 
 def _marked(compared: CheckedProperty, system: System) -> bool:
@@ -127,27 +103,17 @@ def _marked(compared: CheckedProperty, system: System) -> bool:
 
 def _explored(
     system: System, asked: Sequence[Property], progress: Progress
-) -> tuple[Exploration, tuple[str, ...], bool]:
-    """With the monitors of the properties, and the variables that mark; without where that is too much.
-
-    Also whether it would be the same again: where time ended it, it would not.
-    """
+) -> tuple[Exploration, tuple[str, ...]]:
+    """With the monitors of the properties, and the variables that mark; without where that is too much."""
     lowered = lower(system)
     places = _places(system)
-    lasting = True
     if asked:
         question = reduce(lowered, asked)
         goals = tuple(goal.var.name for goal in question.goals)
         exploration = explore(question.system, [*places, *goals], LIMITS, progress)
         if not exploration.explored.stopped:
-            return exploration, goals, True
-        lasting = not _by_time(exploration.explored.stopped)
-    exploration = explore(lowered, places, LIMITS, progress)
-    return exploration, (), lasting and not _by_time(exploration.explored.stopped)
-
-
-def _by_time(stopped: str) -> bool:
-    return bool(stopped) and "memory" not in stopped
+            return exploration, goals
+    return explore(lowered, places, LIMITS, progress), ()
 
 
 def _places(system: System) -> list[str]:

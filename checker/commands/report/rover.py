@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from rovercheck.checker.commands.report.data import Extras
-from rovercheck.checker.commands.report.kept_parts import PageParts
 from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
 from rovercheck.checker.commands.shared.dependencies import of_verdict
 from rovercheck.checker.commands.shared.verdicts import results
@@ -28,12 +27,9 @@ from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.repairs import Repair, repairs
 
 
-def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool, kept: PageParts) -> Extras:
-    """All of it; repairs only if wanted and for the charts as specified.
-
-    Repairs that are ``kept`` are not decided again.
-    """
-    mended = tuple(remedies(found, kept)) if with_repairs and not variant.name else ()
+def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool) -> Extras:
+    """All of it; repairs only if wanted and for the charts as specified."""
+    mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
     taken = tuple(
         interpretation(one, variant.choices.get(one.id, one.default)) for one in ambiguities().values()
     )
@@ -51,22 +47,12 @@ def _meaning(one: Ambiguity, choice: str) -> str:
     return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
 
 
-def remedies(found: Sequence[CheckedProperty], kept: PageParts) -> Iterator[Remedy]:
-    """The repairs of what was found violated, the properties that they repair decided unless that is kept."""
+def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
+    """The repairs of what was found violated, the properties that they repair decided."""
     violated = {c.result.property.id for c in found if c.verdict.word == "violated"}
     for repair in repairs().values():
         if not violated.isdisjoint(repair.fixes):
-            ids = sorted(violated & set(repair.fixes))
-            yield kept.made(Remedy, partial(_remedy, repair, violated), _decisive, repair.name, *ids)
-
-
-def _remedy(repair: Repair, violated: set[str]) -> Remedy:
-    return remedy(Proof(repair, tuple(_decided(repair, violated))))
-
-
-def _decisive(one: Remedy) -> bool:
-    """Whether no limit has ended a search."""
-    return all(verdict != "unknown" for _, verdict, _ in one.proofs)
+            yield remedy(Proof(repair, tuple(_decided(repair, violated))))
 
 
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:

@@ -13,7 +13,6 @@ from rovercheck.checker.commands.report import PageOptions
 from rovercheck.checker.commands.report.causes import CauseSearch, with_reasons
 from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
 from rovercheck.checker.commands.report.graphs import state_graphs
-from rovercheck.checker.commands.report.kept_parts import NOT_KEPT, PageParts
 from rovercheck.checker.commands.report.origin import origin
 from rovercheck.checker.commands.report.pdf import printable, printed
 from rovercheck.checker.commands.report.rover import extras
@@ -68,7 +67,7 @@ def report(
         if options.premises is not False:
             asked = patient(search, LONG if options.premises else PATIENCE)
             cases_known = cases(found, model.systems, asked, known)
-        write(page(model, variant, found, options, cases_known, PageParts(search.store)), output)
+        write(page(model, variant, found, options, cases_known), output)
         if options.pdf is not None:
             printed(output, options.pdf)
     except Unwritable as error:
@@ -88,18 +87,14 @@ def page(
     found: Sequence[CheckedProperty],
     options: PageOptions,
     cases_known: Mapping[str, PremiseCase] | None = None,
-    kept: PageParts = NOT_KEPT,
 ) -> str:
-    """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id.
-
-    Parts that are ``kept`` are not made again.
-    """
+    """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id."""
     own = (
-        extras(variant, found, not options.no_repairs, kept)
+        extras(variant, found, not options.no_repairs)
         if model.path is None
         else Extras(depends=partial(of_verdict, variant=variant))
     )
-    graphs, undrawn = state_graphs(found, concerned(found, model), model.options, kept)
+    graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
     own = replace(own, premises=cases_known or {}, graphs=graphs, undrawn=undrawn)
     return render(
         reviewed(model, found, origin(model, variant, worst(found), options), own, not options.some)
