@@ -104,9 +104,9 @@ def _one_of(words: Sequence[str]) -> str:
 def gravest_of(covered: Iterable[str], known: Mapping[str, Hazard], named: str = "") -> Hazard:
     """The hazard of breaking one of some requirements: the one ``named``, else the gravest of them.
 
-    ``known`` is in the order of ``hazards_in``.  ``UNRATED`` if there is none.
+    ``known`` is in the order of ``hazards_in``.  ``UNRATED`` if there is none, as where no hazard is known.
     """
-    if named:
+    if named in known:
         return known[named]
     ids = set(covered)
     return next((one for one in known.values() if not ids.isdisjoint(one.requirements)), UNRATED)

@@ -34,7 +34,7 @@ from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.checked import CheckedProperty
-from rovercheck.checker.verify.finding_order import FindingOrder, order_of
+from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.english import HOW_TO_READ
 from rovercheck.properties.forms import Property
@@ -177,7 +177,7 @@ def _page(compared: CheckedProperty) -> str:
 
 
 def _index(found: Sequence[CheckedProperty]) -> str:
-    lines = ["# Verdicts", "", totals([told(one, FindingOrder()) for one in found]), ""]
+    lines = ["# Verdicts", "", totals([told(one, order_of(rover())) for one in found]), ""]
     lines += [
         "- [Promises](promises.md)",
         "- [Charts](charts/README.md)",
