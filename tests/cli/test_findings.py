@@ -104,7 +104,7 @@ def test_the_gravest_finding_of_each_requirement_comes_first() -> None:
 
 
 def test_no_finding_is_left_out_without_a_word() -> None:
-    found = [broken(f"D-{n}", f"R-{n}") for n in range(SHOWN + 3)]
+    found = [broken(f"D-{n}", f"Q-{n}", ticks=8 + n) for n in range(SHOWN + 3)]
     guide = Guide(causes="causes.md")
     blank, head, *lines = read_on([*found, REACHED], guide)
     assert blank == "" and head.endswith(f"({SHOWN} of {SHOWN + 3}):")

@@ -19,6 +19,7 @@ BY_HAND = {
     "Add a form of properties": "a monitor and a sentence, which tests/properties compares",
     "Add an operator": "tests/lang/test_operator_tables.py names what is missing",
     "Add a dependency": "make lock asks the package index",
+    "The licence": "is the owner's to choose; tests/packaging looks that none is named",
     "Habits": "tests/test_house_rules.py",
 }
 """Sections that no test here follows, and where they are looked after."""
