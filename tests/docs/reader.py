@@ -22,7 +22,7 @@ ANYWHERE = re.compile(r"(?:check|trace)(?: P[A-Z0-9]+-[0-9a-z]+)+")
 PROMPT = re.compile(r"^tick \d+, [\d.]+ m?s> (.+)$")
 
 
-PROGRESS = re.compile(r"(?m)^\d+/\d+ searches done\b.*\n")
+PROGRESS = re.compile(r"(?m)^(?:\d+ of [\d,]+(?: [a-z]+)?, )?(?:\d+ (?:h|min|s) )+so far\b.*\n")
 
 
 @dataclass
