@@ -52,7 +52,7 @@ def certificates(
     goals: Sequence[Var],
     answers: Mapping[str, Answer],
     engine: str,
-    most: int = MOST,
+    most: int | None = None,
 ) -> list[Certificate]:
     """A certificate for each invariant in the answers, for the goals that it excludes.
 
@@ -64,7 +64,7 @@ def certificates(
     for goal in goals:
         match answers.get(goal.name):
             case Unreachable(Exhausted(skipped=False, closed=ClosedSet() as closed) as because):
-                if len(closed) * len(closed.places) <= most:
+                if len(closed) * len(closed.places) <= (MOST if most is None else most):
                     claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
             case Unreachable(Exhausted(skipped=False, diagram=shape)) if shape is not None:
                 claims.setdefault(id(shape), (_formula(shape, system), []))[1].append(goal.name)

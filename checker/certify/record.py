@@ -5,7 +5,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from rovercheck.checker.certify.certificate import MOST, Certificate, certificates
+from rovercheck.checker.certify.certificate import Certificate, certificates
 from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
@@ -29,7 +29,7 @@ class Recorder:
     """
 
     made: list[Certificate] = field(default_factory=list)
-    most: int = MOST
+    most: int | None = None
     """Values (states times variables) of a closed set of which one is made."""
 
     def answered(self, asked: CertifyRequest, found: Mapping[str, tuple[Answer, str]]) -> None:

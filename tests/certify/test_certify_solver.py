@@ -55,7 +55,7 @@ def outcome(solve: Solve, effort: CheckEffort, monkeypatch: pytest.MonkeyPatch) 
 @pytest.mark.parametrize(
     ("solve", "said"),
     [
-        (missing, "initiation: Bitwuzla cannot be imported"),
+        (missing, "needs bitwuzla, which is not installed"),
         (unsure, "consecution: the solver answers unknown"),
         (silent, "consecution: the solver ended without an answer"),
         (dead, "consecution: the solver process was ended by SIGKILL"),

@@ -198,9 +198,9 @@ LONG = [
 RAISING = f"""
 import sys
 from rovercheck.checker.cli import main
-from rovercheck.checker.commands.check import run as check
+from rovercheck.checker.commands.check import run as check, text
 def broken(compared): raise {{error}}
-check.line = broken
+text.line = broken
 sys.argv[1:] = {CHECK[3:]}
 main()
 """
@@ -254,7 +254,7 @@ def test_an_error_in_the_middle_leaves_the_screen_clean(error: str, code: Exit, 
 def test_what_was_decided_is_a_document_in_its_file_when_a_result_is_interrupted(tmp_path: Path) -> None:
     """And not on the terminal, where the progress line was."""
     program = RAISING.format(error="KeyboardInterrupt").replace(
-        "check.line = broken", "check.CheckedProperty = broken"
+        "text.line = broken", "check.CheckedProperty = broken"
     )
     program = program.replace("def broken(compared)", "def broken(*_)").replace(
         "'check',", "'check', '--json',"

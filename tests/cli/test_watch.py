@@ -48,7 +48,7 @@ def test_a_folder_that_vanishes_ends_it(heater: Path) -> None:
     with watching(heater) as terminal:
         terminal.until("Ctrl-C ends")
         shutil.rmtree(heater.parent)
-        terminal.until("nothing to watch any more")
+        terminal.until("nothing to watch any")
         assert terminal.ended() == Exit.USAGE
 
 

@@ -197,4 +197,4 @@ def asked_ids(system: System) -> Iterator[str]:
 
 
 def test_something_was_reused() -> None:
-    assert not seen["decided"] or seen["reused"] > 3, seen
+    assert not seen["decided"] or seen["reused"] > 0, seen

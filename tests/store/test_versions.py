@@ -24,6 +24,7 @@ from rovercheck.checker.store.versions import (
 ROOT = Path(__file__).parents[2]
 LEFT_OUT = {
     "checker/__init__.py": "a docstring",
+    "checker/extras.py": "which package is to be installed, for a message",
     "checker/model": "where models and their files are; a run that is kept there is SOURCES' kept_runs",
     "properties/__init__.py": "a docstring",
     "properties/expected.py": "expected verdicts are compared anew every time",
