@@ -140,6 +140,14 @@ NO_PART = {
     "Leg": "what is looked at when charts are judged",
     "_Site": "what is looked at when charts are judged",
     "Place": "where something is written",
+    "ActionCall": "shared actions, which stand for what they do, field by field",
+    "Array": "variables under one name: a System holds the variables",
+    "Extent": "a part of a label's text",
+    "Function": "formulas or actions under one name: a System holds what they make",
+    "LabelNames": "what a label may name, while it is read",
+    "LabelText": "a label while it is read",
+    "StateParts": "a label while it is read",
+    "TransitionParts": "a label while it is read",
     "duration": "half a formula: a Temporal once it is compared",
 }
 """Records of the language that are no part of a question."""
@@ -234,7 +242,7 @@ def samples() -> dict[str, tuple[Any, dict[str, Any]]]:
 def test_every_field_of_every_record_enters_or_it_is_said_why_not() -> None:
     left, shown = dict(LEFT_OUT), samples()
     for name, kind in records().items():
-        if name in {*NO_PART, "ActionCall"} or kind in (Bool, State, Junction):
+        if name in NO_PART or kind in (Bool, State, Junction):
             continue
         original, changes = shown[name]
         for one in fields(kind):
