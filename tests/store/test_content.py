@@ -246,6 +246,8 @@ def test_every_field_of_every_record_enters_or_it_is_said_why_not() -> None:
             continue
         original, changes = shown[name]
         for one in fields(kind):
+            if one.name == "label":
+                continue  # a text that a chart makes guard and actions of
             if left.pop(f"{name}.{one.name}", None) is not None:
                 assert one.name not in changes
                 continue
