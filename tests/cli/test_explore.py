@@ -210,8 +210,8 @@ def test_at_a_terminal_it_ends_when_told_to() -> None:
 
 
 def test_next_lists_what_can_come_and_takes_it(told) -> None:
-    code, seen, _ = told("step", "next", "next 1 2", "next all", "next 9", on="relay_links")
-    assert code is Exit.USAGE
+    code, seen, err = told("step", "next", "next 1 2", "next all", "next 9", on="relay_links")
+    assert code is Exit.USAGE, err
     first = seen.partition("> next\n")[2].partition("tick 1,")[0]
     assert "   1 Monitor_heartbeat: Sup_OK → Sup_DEG\n       [heartbeat_slow]\n" in first
     assert "       by heartbeat_slow = true\n" in first
@@ -234,7 +234,7 @@ def test_next_lists_what_can_come_and_takes_it(told) -> None:
 )
 def test_what_cannot_come_is_refused(told, lines: tuple[str, ...], said: str) -> None:
     code, _, err = told(*lines, on="relay_links")
-    assert code is Exit.USAGE and said in " ".join(err.split())
+    assert said in " ".join(err.split()) and code is Exit.USAGE
 
 
 def test_reach_runs_to_a_condition_or_says_that_there_is_no_run(told) -> None:
