@@ -121,7 +121,7 @@ class OneTick:
         try:
             solver.add(*(self._encoder(formula) for formula in under))
             stands = self._meets(standing, under)
-            while stands or solver.check() == z3.sat:
+            while stands or self._satisfiable(solver):
                 found = dict(standing) if stands else self._values(solver.model(), standing, under)
                 yield found
                 if not of:
@@ -132,6 +132,12 @@ class OneTick:
                 stands = False
         finally:
             solver.pop()
+
+    @staticmethod
+    def _satisfiable(solver: "z3.Solver") -> bool:
+        answer = solver.check()
+        assert answer != z3.unknown, f"formulas over bits are decided: {solver.reason_unknown()}"
+        return bool(answer == z3.sat)
 
     def _meets(self, chosen: Mapping[str, int], under: Sequence[Expr]) -> bool:
         at = ChosenValues(chosen)

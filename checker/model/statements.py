@@ -85,7 +85,8 @@ def _without(statement: ast.stmt, error: BaseException, file: Path) -> ast.stmt 
     for node in sorted((n for n in found if isinstance(n, ast.Call)), key=_start, reverse=True):
         holder = next((one for one in lists if any(e is node for e in one.elts)), None)
         if holder is not None:
-            return _Left(node).visit(statement)  # type: ignore[no-any-return]
+            left: ast.stmt | None = _Left(node).visit(statement)
+            return left
     return None
 
 

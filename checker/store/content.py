@@ -5,7 +5,7 @@ under a key that leaves something out.  Texts for readers and places where thing
 since no verdict depends on them.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from fractions import Fraction
@@ -25,7 +25,7 @@ _FOR_READERS: Mapping[type, frozenset[str]] = {
 }
 """Fields of records that only readers look at."""
 _READ: Mapping[type, tuple[str, ...]] = {
-    Chart: ("name", "root", "local_to"),
+    Chart: ("name", "root", "local_to", "label_faults"),
     Block: ("name", "do"),
     Enabled: ("by", "components", "name"),
 }
@@ -66,8 +66,9 @@ class ContentKeys:
         if known is not None:
             return known[0]
         kind = type(value)
-        if kind in _PLAIN:  # of these there are many, and they are soon done
-            return _hashed(kind.__name__.encode(), _PLAIN[kind](value))
+        plain = _plain(value)
+        if plain is not None:
+            return _hashed(kind.__name__.encode(), plain)
         names = _names(kind)
         if names is not None:
             parts = [kind.__qualname__.encode(), *(self._digest(getattr(value, name)) for name in names)]
@@ -96,20 +97,20 @@ def _text(value: str) -> bytes:
     return value.encode("utf-8", "surrogatepass")
 
 
-def _shown(value: object) -> bytes:
-    return repr(value).encode()
+_SHOWN = {type(None), bool, float, range, bytes}
+"""Kinds of values whose ``repr`` tells all."""
 
 
-def _whole(value: int) -> bytes:
-    return b"%x" % value  # of any size: decimals have a limit
-
-
-_PLAIN: Mapping[type, Callable[[object], bytes]] = {
-    **dict.fromkeys((type(None), bool, float, range, bytes), _shown),
-    int: _whole,  # type: ignore[dict-item]
-    Fraction: lambda value: b"%x/%x" % value.as_integer_ratio(),  # type: ignore[attr-defined]
-    str: _text,  # type: ignore[dict-item]
-}
+def _plain(value: object) -> bytes | None:
+    """A value of a kind of which there are many, and which is soon done; None of any other."""
+    kind = type(value)
+    if type(value) is str:
+        return _text(value)
+    if type(value) is int:
+        return b"%x" % value  # of any size: decimals have a limit
+    if type(value) is Fraction:
+        return b"%x/%x" % value.as_integer_ratio()
+    return repr(value).encode() if kind in _SHOWN else None
 
 
 _known_names: dict[type, tuple[str, ...] | None] = dict(_READ)

@@ -84,6 +84,8 @@ class VerdictStore:
             texts = [
                 slice_text(replace(prop, on=name), systems[name]) for name in self._systems(prop, systems)
             ]
+            if None in texts:  # what cannot be read would not be part of the key
+                return None
             return self._name("slice", self._keys.key(replace(prop, on=""), *texts))
         except (NoKey, RecursionError, OSError):
             return None

@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from rovercheck.checker.model import Model
 from rovercheck.checker.results.gravity import Gravity, gravest_first
@@ -35,11 +36,18 @@ class FindingOrder:
         charts, then what a shorter run shows.
         """
         hazard, prop = self.hazard(one), one.result.property
-        places = {id: place for place, id in enumerate(self.hazards)}
-        rank = {id: place for place, id in enumerate(self.requirements)}
-        first = min((rank.get(id, len(rank)) for id in prop.covers), default=len(rank))
-        place = places.get(hazard.id, len(places))
+        last = len(self.requirements)
+        first = min((self._rank.get(id, last) for id in prop.covers), default=last)
+        place = self._places.get(hazard.id, len(self.hazards))
         return Gravity(hazard.severity.rank, place, first, self._within(one, prop))
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {id: place for place, id in enumerate(self.hazards)}
+
+    @cached_property
+    def _rank(self) -> dict[str, int]:
+        return {id: place for place, id in enumerate(self.requirements)}
 
     def ordered(self, found: Sequence[CheckedProperty]) -> list[CheckedProperty]:
         """The gravest first."""

@@ -16,10 +16,13 @@ from rovercheck.checker.store.verdicts import VerdictStore
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings, events
-from rovercheck.properties.forms import Property
+from rovercheck.properties.forms import Property, always
 from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.system import System, in_order
 from tests import naive
 from tests.profiles import examples
 from tests.store.naive_engine import NaiveEngine
@@ -198,3 +201,14 @@ def asked_ids(system: System) -> Iterator[str]:
 
 def test_something_was_reused() -> None:
     assert not seen["decided"] or seen["reused"] > 0, seen
+
+
+def test_a_slice_that_cannot_be_read_has_no_name() -> None:
+    """A concrete system without what the property names would not be part of the name."""
+    go, seen = flag("go"), flag("seen")
+    loose = in_order("loose", Block("Watch", [assign(seen, go)]), over=True, concrete="real")
+    prop = always("P", "It is seen.", that=seen, covers=["R"], on="loose")
+    for real, named in ((in_order("real", Block("Other", [assign(flag("other"), go)])), False),
+                        (in_order("real", Block("Watch", [assign(seen, go)])), True)):  # fmt: skip
+        name = VerdictStore("any").slice(prop, {"loose": loose, "real": real})
+        assert (name is not None) is named

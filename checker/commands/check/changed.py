@@ -6,15 +6,13 @@ it reads, or of all.
 """
 
 import json
-import os
-import subprocess
 import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.revisions import exported, repository
+from rovercheck.checker.commands.shared.revisions import RevisionTree, exported, repository, tree_of
 
 if TYPE_CHECKING:
     from rovercheck.checker.model.variant import Variant
@@ -23,7 +21,6 @@ if TYPE_CHECKING:
 Names = Mapping[str, str | None]
 """By property a name that stands for what is asked; None where there is none."""
 MODULE = "rovercheck.checker.commands.check.changed"
-_ROOT = Path(__file__).parents[3]
 
 
 def changed_since(revision: str, variant: "Variant") -> set[str]:
@@ -32,20 +29,16 @@ def changed_since(revision: str, variant: "Variant") -> set[str]:
     Where the code that decides has changed, these are all.
     """
     model = variant.own.path if variant.own is not None else None
-    root = repository(model.absolute() if model is not None else _ROOT)
+    root = repository(model)
     with exported(root, revision) as folder:
-        if model is None:
-            there, options = folder, []
-        else:
-            path = folder / model.absolute().resolve().relative_to(root.resolve())
-            if not path.exists():
-                return set(variant.properties())
-            there, options = Path.cwd(), [str(path)]
-        before = _said(there, options, revision, ())
+        tree = tree_of(model, root, folder)
+        if tree is None:
+            return set(variant.properties())
+        before = _said(tree, revision, ())
         now = questions(variant)
         otherwise = [id for id, name in now.items() if name is None or before.get(id) != name]
         known = [id for id in otherwise if before.get(id) is not None]
-        before = _said(there, options, revision, known) if known else {}
+        before = _said(tree, revision, known) if known else {}
     now = slices(variant, known)
     same = {id for id in known if now[id] is not None and now[id] == before.get(id)}
     return set(otherwise) - same
@@ -70,14 +63,9 @@ def _store() -> "VerdictStore":
     return VerdictStore("any engine")
 
 
-def _said(folder: Path, options: list[str], revision: str, ids: Iterable[str]) -> Names:
-    """The names that the files of a revision have."""
-    command = [sys.executable, "-m", MODULE, *options]
-    here = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
-    asked = json.dumps(list(ids))
-    done = subprocess.run(
-        command, cwd=folder, env=here, input=asked, stdout=subprocess.PIPE, text=True, check=False
-    )
+def _said(tree: RevisionTree, revision: str, ids: Iterable[str]) -> Names:
+    """The names that the files of a revision have.  Raises ``UsageError``."""
+    done = tree.run(MODULE, *filter(None, [tree.model]), given=json.dumps(list(ids)))
     try:
         found: Names = json.loads(done.stdout)
     except ValueError as error:

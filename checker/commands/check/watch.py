@@ -38,21 +38,21 @@ def watched(model: Path | None) -> list[Path]:
 
 
 def watch(arguments: Sequence[str], model: Path | None) -> Exit:
-    """Check now and after each change until Ctrl-C; the exit code is that of the last check.
+    """Check now and after each change until Ctrl-C, which is how it ends, whatever the verdicts are.
 
     ``arguments`` are those of ``check``.  Raises ``UsageError`` where the folder is gone.
     """
     folders = watched(model)
     names = ", ".join(whole(folder) for folder in folders)
-    code, before = Exit.INTERRUPTED, None
+    before: list[Any] | None = None
     with suppress(KeyboardInterrupt):
-        for saved in _saves(folders):
-            if code is Exit.INTERRUPTED:
-                code, before = _round(arguments, None, "")
+        for number, saved in enumerate(_saves(folders)):
+            if number == 0:  # files are looked after from now on
+                before = _round(arguments, None, "")
                 err.print(f"Watching {names}; Ctrl-C ends.", markup=False)
             if saved:
-                code, before = _round(arguments, before, saved)
-    return code
+                before = _round(arguments, before, saved)
+    return Exit.INTERRUPTED
 
 
 def _saves(folders: Sequence[Path]) -> Iterator[str]:
@@ -70,7 +70,7 @@ def _saves(folders: Sequence[Path]) -> Iterator[str]:
         yield ", ".join(sorted(names))
 
 
-def _round(arguments: Sequence[str], before: list[Any] | None, saved: str) -> tuple[Exit, list[Any] | None]:
+def _round(arguments: Sequence[str], before: list[Any] | None, saved: str) -> list[Any] | None:
     """Check once, and tell what changed since; the verdicts, those of before where there are none."""
     began = monotonic()
     command = [sys.executable, "-m", "rovercheck", "check", *arguments, "--json"]
@@ -83,12 +83,12 @@ def _round(arguments: Sequence[str], before: list[Any] | None, saved: str) -> tu
         rows = list(found["results"])
     except (ValueError, KeyError):
         out.print(f"{head}: not checked, see above; the verdicts of before stand.", markup=False)
-        return Exit(done.returncode), before
+        return before
     took = f"{monotonic() - began:.1f} s"
     out.print(f"{head}: {_counts(rows)}, in {took}.", markup=False)
     for line in _told(rows, before):
         out.print(line, markup=False)
-    return Exit(done.returncode), rows
+    return rows
 
 
 def _told(rows: Sequence[Any], before: Sequence[Any] | None) -> Iterator[str]:

@@ -4,9 +4,6 @@ What is the same in both is in the store of verdicts after the first check, and 
 """
 
 import json
-import os
-import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -17,12 +14,10 @@ from rovercheck.checker.commands.diff.document import DiffDocument, VerdictChang
 from rovercheck.checker.commands.diff.text import markdown, text
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, possible, write, wrote
-from rovercheck.checker.commands.shared.revisions import commit, exported, repository
+from rovercheck.checker.commands.shared.revisions import RevisionTree, commit, exported, repository, tree_of
 from rovercheck.checker.commands.shared.silence import silent
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.io.printable import json_text
-
-_ROOT = Path(__file__).parents[3]
 
 
 @dataclass(frozen=True)
@@ -39,28 +34,7 @@ class DiffRequest:
         """The repository.  Raises ``UsageError``."""
         if self.model is not None and not self.model.exists():
             raise UsageError(f"There is no {whole(self.model)}; write a Python file, or a folder of them.")
-        return repository(self.model.absolute() if self.model is not None else _ROOT)
-
-
-@dataclass(frozen=True)
-class CheckedTree:
-    """Files of one revision: where commands about them run, and the options that make them be about these."""
-
-    folder: Path
-    options: tuple[str, ...]
-
-    def said(self, *words: str) -> str:
-        """What a command prints.  Raises ``UsageError`` where it could not do what it should."""
-        command = [sys.executable, "-m", "rovercheck", *words, *self.options]
-        here = {n: v for n, v in os.environ.items() if n != "PYTHONSAFEPATH"}
-        done = subprocess.run(command, cwd=self.folder, env=here, stdout=subprocess.PIPE, check=False)
-        if done.returncode == Exit.INTERRUPTED:
-            raise KeyboardInterrupt
-        if done.returncode >= Exit.INTERNAL:
-            raise UsageError(
-                f"These files cannot be compared: `rovercheck {' '.join(words)}` fails, see above."
-            )
-        return done.stdout.decode(errors="replace")
+        return repository(self.model)
 
 
 def diff(asked: DiffRequest, form: str, output: Path | None = None) -> Exit:
@@ -95,23 +69,32 @@ def diff(asked: DiffRequest, form: str, output: Path | None = None) -> Exit:
     return code(found)
 
 
-def _tree(asked: DiffRequest, root: Path, folder: Path) -> CheckedTree:
-    if asked.model is None:
-        if not (folder / "rovercheck").is_dir():
-            raise UsageError(f"{whole(folder)} holds no rovercheck; for a model of your own write --model.")
-        return CheckedTree(folder, ())
-    path = folder / asked.model.absolute().resolve().relative_to(root.resolve())
-    if not path.exists():
-        raise UsageError(f"{asked.before} has no {whole(asked.model)}; write a revision that has it.")
-    return CheckedTree(Path.cwd(), ("--model", str(path)))
+def _tree(asked: DiffRequest, root: Path, folder: Path) -> RevisionTree:
+    """Raises ``UsageError`` where the files hold neither the rover nor the model that is asked for."""
+    found = tree_of(asked.model, root, folder)
+    if found is None and asked.model is None:
+        raise UsageError(f"{whole(folder)} holds no rovercheck; for a model of your own write --model.")
+    if found is None:
+        raise UsageError(f"{asked.before} has no {whole(str(asked.model))}; write a revision that has it.")
+    return found
 
 
-def _checked(tree: CheckedTree, name: str, full: bool) -> list[Any]:
+def _said(tree: RevisionTree, *words: str) -> str:
+    """What a command about the files prints.  Raises ``UsageError`` where it could not do what it should."""
+    done = tree.run("rovercheck", *words, *(["--model", tree.model] if tree.model else []))
+    if done.returncode == Exit.INTERRUPTED:
+        raise KeyboardInterrupt
+    if done.returncode >= Exit.INTERNAL:
+        raise UsageError(f"These files cannot be compared: `rovercheck {' '.join(words)}` fails, see above.")
+    return done.stdout
+
+
+def _checked(tree: RevisionTree, name: str, full: bool) -> list[Any]:
     """The rows of a check."""
     if not silent():
         err.print(f"Checking {name or 'the working tree'} ...", markup=False)
     options = [*(["--full"] if full else []), *(["--quiet"] if silent() else [])]
-    said = tree.said("check", "--json", *options)
+    said = _said(tree, "check", "--json", *options)
     try:
         found: Mapping[str, Any] = json.loads(said)
         return list(found["results"])
@@ -119,7 +102,7 @@ def _checked(tree: CheckedTree, name: str, full: bool) -> list[Any]:
         raise UsageError(f"{name} speaks another JSON: {type(error).__name__}; write a later one.") from error
 
 
-def _run(tree: CheckedTree, found: Sequence[VerdictChange], form: str) -> str:
+def _run(tree: RevisionTree, found: Sequence[VerdictChange], form: str) -> str:
     """The shortest run that was not there before."""
     new = [one for one in found if one["after"] == "violated" and one["before"] != "violated"]
     runs = [one for one in new if one["ticks_after"] is not None]
@@ -127,4 +110,4 @@ def _run(tree: CheckedTree, found: Sequence[VerdictChange], form: str) -> str:
         return ""
     shortest = min(runs, key=lambda one: (one["ticks_after"] or 0, one["id"]))
     written = "markdown" if form == "markdown" else "table"
-    return tree.said("trace", shortest["id"], "--no-explain", "--format", written).rstrip()
+    return _said(tree, "trace", shortest["id"], "--no-explain", "--format", written).rstrip()

@@ -38,12 +38,12 @@ def serve(host: str, port: int, options: VariantOptions, *, opening: bool) -> Ex
         )
     _end_on_signal()
     with server, watched(workspace):
-        out.print(f"The page is at {server.url}", markup=False, soft_wrap=True)
-        out.file.flush()
-        err.print("Only who knows this address can see it. Ctrl-C ends it.", style="dim")
-        if opening and not webbrowser.open(server.url):
-            err.print("No browser could be opened; open the address by hand.", style="yellow")
         with suppress(KeyboardInterrupt):  # the usual way to end it
+            out.print(f"The page is at {server.url}", markup=False, soft_wrap=True)
+            out.file.flush()
+            err.print("Only who knows this address can see it. Ctrl-C ends it.", style="dim")
+            if opening and not webbrowser.open(server.url):
+                err.print("No browser could be opened; open the address by hand.", style="yellow")
             server.serve_forever()
         jobs.cancel()
     return Exit.AS_EXPECTED

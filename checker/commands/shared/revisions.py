@@ -1,18 +1,54 @@
 """Earlier revisions of what is checked, as git has them: their files, in a folder for as long as it takes."""
 
+import os
 import subprocess
+import sys
 import tarfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.text_wrap import whole
 
+_OWN = Path(__file__).parents[3]
 
-def repository(path: Path) -> Path:
-    """The folder of the git repository that a file or folder is in.  Raises ``UsageError``."""
+
+@dataclass(frozen=True)
+class RevisionTree:
+    """Files of one revision: where programs about them run, and the path of the ``model`` among them.
+
+    The rover's own files are run from their own folder, and so by the rovercheck of that revision.
+    """
+
+    folder: Path
+    model: str = ""
+
+    def run(self, module: str, *words: str, given: str = "") -> subprocess.CompletedProcess[str]:
+        """What a module of rovercheck does as a program; its messages go where ours go."""
+        here = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
+        return subprocess.run(
+            [sys.executable, "-m", module, *words], cwd=self.folder, env=here, input=given,
+            stdout=subprocess.PIPE, encoding="utf-8", errors="replace", check=False,
+        )  # fmt: skip
+
+
+def tree_of(model: Path | None, root: Path, folder: Path) -> RevisionTree | None:
+    """The rover, or a model of a user's own, among the files in a folder; None where these have it not.
+
+    ``root`` is the repository that the model is in.
+    """
+    if model is None:
+        return RevisionTree(folder) if (folder / "rovercheck").is_dir() else None
+    path = folder / model.absolute().resolve().relative_to(root.resolve())
+    return RevisionTree(Path.cwd(), str(path)) if path.exists() else None
+
+
+def repository(model: Path | None) -> Path:
+    """The folder of the git repository of a model, None: of the rover.  Raises ``UsageError``."""
+    path = _OWN if model is None else model.absolute()
     folder = path if path.is_dir() else path.parent
     found = _git(folder, "rev-parse", "--show-toplevel")
     if found is None:

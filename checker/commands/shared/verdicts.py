@@ -33,7 +33,8 @@ def results(
     With ``quiet``, nothing is said meanwhile.  On Ctrl-C the searches under way are ended and
     ``KeyboardInterrupt`` is raised.
     """
-    watching = SearchWatch(err, len(properties), quiet, known_times(), search.jobs or cores())
+    known = known_times() if search.store is not None else {}
+    watching = SearchWatch(err, len(properties), quiet, known, search.jobs or cores())
     with closing(events(properties, systems, search)) as found, watching as watch:
         for one in found:
             match one:
@@ -48,4 +49,5 @@ def results(
                 case Result():
                     watch.counted()
                     yield one
-    keep_times(watching.took)
+    if search.store is not None:
+        keep_times(watching.took)

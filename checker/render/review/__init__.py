@@ -99,7 +99,7 @@ def render(review: Review) -> str:
     styles = dict.fromkeys(text for part in styled for text in part.styles)
     parts = [Part(Markup(body), (*styles, own("review.css")), tuple(map(own, SCRIPTS)))]
     packed = _pictures(runs, told, review.graphs)
-    about = TEMPLATES.get_template("property.html").make_module(shown).about  # type: ignore[attr-defined]
+    about = vars(TEMPLATES.get_template("property.html").make_module(shown))["about"]
     for one in review.properties:
         if not one.finding:
             packed.add(inside(one.id), [Part(about(one))])
