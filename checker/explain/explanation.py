@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from random import Random
+from typing import TYPE_CHECKING
 
 from rovercheck.checker.engines import Progress, quiet
 from rovercheck.checker.explain.necessary_inputs import forcing
@@ -12,12 +13,16 @@ from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.partition import partitions
 from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.checker.verify.runs.replay import ReplayError, followed
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.evaluate import admissible, step
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import System, TransitionSystem
+
+if TYPE_CHECKING:
+    from rovercheck.checker.store.verdicts import VerdictStore
 
 # --- are the needed inputs enough?  Runs with these inputs and any others are replayed, and must end alike
 
@@ -114,6 +119,30 @@ def unexplained(trace: Trace) -> str:
     if trace.trapped is not None:
         return "what is out of reach after a run is no matter of its inputs alone"
     return ""
+
+
+def explained_once(
+    trace: Trace,
+    prop: Property,
+    system: System,
+    store: "VerdictStore | None",
+    progress: Progress = quiet,
+    over: Over = never,
+) -> Trace:
+    """As ``explained``; what is in the store is not looked for again, and what is found is kept there.
+
+    A set of inputs of which some may not matter is not kept.  Raises what ``explained`` raises.
+    """
+    if store is None:
+        return explained(trace, prop, system, progress, over)
+    name = store.about("cause", prop, system, run_in(trace))
+    known = store.necessary(name)
+    if known is not None:
+        return replace(trace, necessary=known)
+    found = explained(trace, prop, system, progress, over)
+    if found.necessary is not None and found.necessary.minimal:
+        store.write_necessary(name, found.necessary)
+    return found
 
 
 def explained(

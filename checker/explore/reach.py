@@ -7,9 +7,8 @@ is found is executed by the interpreter of charts before it is shown (``Session.
 from collections.abc import Generator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
-from time import monotonic
 
-from rovercheck.checker.engines import AUTO, Limits, Stage
+from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 from rovercheck.checker.results.verdict import Reached, Run, Unreachable
 from rovercheck.spec_model.lang.action import Assign
@@ -21,8 +20,6 @@ SECONDS = 60.0
 """How long is searched, unless a person says otherwise."""
 SLACK = 2 << 30
 """Bytes of address space that a child needs besides what an engine may store."""
-PAUSE = 0.5
-"""Seconds between two lines on what an engine is doing."""
 
 
 @dataclass(frozen=True)
@@ -101,9 +98,10 @@ def _search(
     from rovercheck.checker.system.lowering_cache import lowered
     from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
     from rovercheck.checker.verify.result import check_domains
+    from rovercheck.checker.verify.search_worker import Seldom
     from rovercheck.spec_model.lang.errors import ModelError
 
-    progress = _Seldom(send)
+    progress = Seldom(send)
     send(f"lowering {system.name}")
     begun = from_state(lowered(system), state, condition, first=first)
     question = PortfolioQuestion(begun, (GOAL,))
@@ -122,16 +120,3 @@ def _search(
             send(NeverReached(because.how, engine))
         case _:
             send(NotDecided(answer.reason, answer.depth))
-
-
-class _Seldom:
-    """A progress that passes on a line now and then."""
-
-    def __init__(self, send: Send) -> None:
-        self._send = send
-        self._last = float("-inf")
-
-    def __call__(self, line: str) -> None:
-        if isinstance(line, Stage) or monotonic() - self._last >= PAUSE:
-            self._last = monotonic()
-            self._send(str(line))

@@ -143,7 +143,7 @@ class SearchWorker:
             task = stored.without(self._told(send, stored))
             if not task.properties:
                 return
-        callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
+        callbacks = Callbacks(Seldom(send), lambda seconds: send(GrantedTime(seconds)), answered)
         for one in decide(task, self._systems, self._engine, self._limits, callbacks, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(self._decided(results[-1], task, stored))
@@ -195,14 +195,14 @@ class SearchWorker:
         made: Sequence["Certificate"],
     ) -> None:
         certifying.written(task, self._limits, results, made)
-        progress = _Calm(send)
+        progress = Seldom(send)
         for id, outcome in certifying.outcomes(
             task, self._systems, self._limits, results, made, progress
         ).items():
             send(PropertyCertified(id, outcome))
 
 
-class _Calm:
+class Seldom:
     """A progress that passes on a line now and then."""
 
     def __init__(self, send: Send) -> None:

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Progress
-from rovercheck.checker.explain.explanation import explained
+from rovercheck.checker.explain.explanation import explained_once
 from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.checker.verify.checked import CheckedProperty
-from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 
@@ -66,20 +65,13 @@ def _with_reason(
 
 
 def _forced(run: Trace, prop: Property, system: System, search: CauseSearch, progress: Progress) -> Trace:
-    """The run with what forces its end: what is kept of it, or found now in time, which is then kept."""
-    store = search.store
-    name = store.about("cause", prop, system, run_in(run)) if store is not None else None
-    if store is not None and (known := store.necessary(name)) is not None:
-        return replace(run, necessary=known)
+    """The run with what forces its end, as far as that is found in time."""
     start = process_time()
 
     def late() -> bool:
         return search.seconds is not None and process_time() - start > search.seconds
 
     try:
-        found = explained(run, prop, system, progress, late)
+        return explained_once(run, prop, system, search.store, progress, late)
     except OutOfTime:
         return run
-    if store is not None and found.necessary is not None and found.necessary.minimal:
-        store.write_necessary(name, found.necessary)
-    return found

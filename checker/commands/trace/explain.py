@@ -1,14 +1,13 @@
 """Explaining a trace while a user waits: with progress, a limit of time, and Ctrl-C at any moment."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from time import process_time
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 
@@ -41,7 +40,7 @@ class ExplanationOptions:
         if not self.wanted:
             return trace
         from rovercheck.checker.explain.explanation import (  # by solvers, loaded for this alone
-            explained,
+            explained_once,
             unexplained,
         )
         from rovercheck.checker.explain.unrolled_run import OutOfTime
@@ -50,21 +49,16 @@ class ExplanationOptions:
             err.print(f"The cause is not looked for: {why}.", markup=False)
             return trace
         start, task, system = process_time(), f"{prop.id}: cause", systems[trace.system.name]
-        name = self.store.about("cause", prop, system, run_in(trace)) if self.store is not None else None
-        if self.store is not None and (known := self.store.necessary(name)) is not None:
-            return replace(trace, necessary=known)
         try:
             with Watch(err, 1, self.quiet) as watch:
-                found = explained(
+                return explained_once(
                     trace,
                     prop,
                     system,
+                    self.store,
                     lambda line: watch.say(task, line),
                     lambda: self.seconds is not None and process_time() - start > self.seconds,
                 )
-            if self.store is not None and found.necessary is not None and found.necessary.minimal:
-                self.store.write_necessary(name, found.necessary)
-            return found
         except OutOfTime as late:
             err.print(f"The cause is not known: {late}. Wait for it with --explain.", markup=False)
         except KeyboardInterrupt:
