@@ -148,7 +148,8 @@ class OneTick:
         self, model: "z3.ModelRef", standing: Mapping[str, int], under: Sequence[Expr]
     ) -> dict[str, int]:
         """The values of a model, those that it leaves open as they stand if that will do."""
-        found = {**standing, **{of.name(): value(model[of]) for of in model.decls()}}
+        told = {name: model[term] for name, term in self._symbols.items()}
+        found = {**standing, **{name: value(term) for name, term in told.items() if term is not None}}
         if self._meets(found, under):
             return found
         return {n: value(model.eval(s, model_completion=True)) for n, s in self._symbols.items()}

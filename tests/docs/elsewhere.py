@@ -54,6 +54,10 @@ COMMANDS = {
     "rovercheck compare --system board1 --impl c:FOLDER": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
+    "rovercheck accept --from decisions.json": Instead(
+        "writes into the record of the rover; tests/cli/test_accept.py takes over decisions of a page"
+    ),
+    "rovercheck serve": SERVES,
     "rovercheck serve --model heater.py": SERVES,
     "rovercheck doctor": Instead("tests/cli/test_doctor.py puts its questions to every engine"),
     "rovercheck generate-tests": COVERS,
@@ -90,6 +94,10 @@ COMMANDS = {
     "rovercheck report --output review.html": Instead(
         "decides everything; the line with --full below it is run for one property"
     ),
+    (
+        'rovercheck report --output review.html --pdf review.pdf --reviewer "A. Rossi" '
+        '--document "Supervisors, rev. 3"'
+    ): Instead("decides everything; tests/cli/test_report_pdf.py prints a page"),
     "rovercheck report --model examples/models/lift --output lift.html": Instead(
         "the tutorial writes the page of a model; the README of this one checks it"
     ),
@@ -177,6 +185,10 @@ SHOWN = {
         "docs/certificates.md",
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
+    (
+        "docs/daily.md",
+        "From 3f2a1c09d4 to the working tree: 1 verdict is worse; 2 verdicts are the same.",
+    ): "tests/cli/test_diff.py compares what is told of two revisions",
     ("docs/findings.md", '{"schema": "rovercheck/decisions/1",'): (
         "tests/cli/test_accept.py reads decisions that are valid under the schema"
     ),

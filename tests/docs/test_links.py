@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Iterator
+from difflib import unified_diff
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
@@ -90,7 +91,10 @@ def test_a_link_that_leads_nowhere_is_seen(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_what_is_generated_and_kept_is_as_the_sources_are_today() -> None:
-    assert [file for file, _ in stale()] == [], "run `make docs` and commit"
+    for file, content in stale():
+        kept = file.read_text(encoding="utf-8").splitlines()
+        changes = "\n".join(unified_diff(kept, content.splitlines(), "kept", "generated", n=0, lineterm=""))
+        raise AssertionError(f"{file}: run `make docs` and commit\n{changes}")
     assert all(file.is_file() for file in KEPT)
 
 
