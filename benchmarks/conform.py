@@ -13,14 +13,15 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import process_time
 
-from rovercheck.checker.logs.check import BoardFollower
-from rovercheck.checker.logs.cones import cones
-from rovercheck.checker.logs.decoder import InputDecoder
-from rovercheck.checker.logs.log import LogBlock, LogLayout, open_log
+from rovercheck.checker.conformance.cones import cones
+from rovercheck.checker.conformance.decoder import InputDecoder
+from rovercheck.checker.conformance.follower import BoardFollower
+from rovercheck.checker.conformance.recording import LogBlock
+from rovercheck.checker.conformance.signals import Vocabulary
+from rovercheck.checker.logs.log import LogLayout, open_log
 from rovercheck.checker.logs.mapping import ColumnMap
 from rovercheck.checker.logs.monitors import LogMonitors
 from rovercheck.checker.logs.selection import choose
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.system import TICK_MS

@@ -4,14 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import isfinite, isnan
 
+from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.logs.errors import SHORT, LogError, shortened
 from rovercheck.checker.logs.mapping import Column, conversion
 from rovercheck.spec_model.abstraction import BoardSignal
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, exact
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
-
-Raw = int | Fraction
-"""A raw value, as in the charts; a fraction lies between two values of a domain."""
 
 MOST_DIGITS = 40
 EXPONENT = 4

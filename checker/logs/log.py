@@ -5,13 +5,14 @@ from dataclasses import dataclass, field, replace
 from itertools import compress, islice
 from pathlib import Path
 
+from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.io.printable import one_line
-from rovercheck.checker.logs.cells import CellConverter, Raw, converter
+from rovercheck.checker.logs.cells import CellConverter, converter
 from rovercheck.checker.logs.errors import LogError, at, shortened
 from rovercheck.checker.logs.files import FileRows, opened
 from rovercheck.checker.logs.invalid import Invalid, InvalidCell
 from rovercheck.checker.logs.mapping import Column, ColumnMap
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import BoardSignal, boards
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import boolean
@@ -30,24 +31,7 @@ EARLY_MS = 2 * TICK_MS
 SOME = 8
 """Columns that are named where none has a meaning."""
 
-Cells = list[Raw | None]
 _FLAG = BoardSignal("update", boolean, False)
-
-
-@dataclass(frozen=True)
-class LogBlock:
-    """Successive rows: the line and the step of each, from 1, and its values by signal.
-
-    ``missing[i]`` steps lie between row i and the one before it.
-    """
-
-    lines: Sequence[int]
-    ticks: Sequence[int]
-    missing: Sequence[int]
-    values: Mapping[str, Cells]
-
-    def __len__(self) -> int:
-        return len(self.lines)
 
 
 @dataclass(frozen=True)

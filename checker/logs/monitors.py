@@ -7,13 +7,13 @@ from typing import Literal
 
 import numpy as np
 
-from rovercheck.checker.logs.cones import measured
+from rovercheck.checker.conformance.cones import measured
+from rovercheck.checker.conformance.mismatch import shown
+from rovercheck.checker.conformance.recording import Cells, LogBlock
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.logs.form_monitors import Judge
 from rovercheck.checker.logs.formula import Array, FormulaRows
-from rovercheck.checker.logs.log import Cells, LogBlock
-from rovercheck.checker.logs.mismatch import shown
 from rovercheck.checker.logs.selection import MonitoredProperty, PropertySelection, Wires
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.forms import Form, Never, Property, Reachable
 from rovercheck.properties.pasttime import Bounded
 from rovercheck.spec_model.lang.expr import FALSE, Expr, Var

@@ -3,9 +3,9 @@
 from collections.abc import Callable, Mapping
 from functools import cache
 
-from rovercheck.checker.logs.cones import LogCone, cones
+from rovercheck.checker.conformance.cones import LogCone, cones
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.logs.selection import PropertySelection, choose
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.abstraction import Board, boards

@@ -4,9 +4,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from rovercheck.checker.logs.cones import parts_of
+from rovercheck.checker.conformance.cones import parts_of
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.logs.form_monitors import finite
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.forms import Property, formulas
 from rovercheck.spec_model.lang.action import Action, Assign
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled

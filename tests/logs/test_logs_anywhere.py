@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.conformance.cones import LogCone, cones
+from rovercheck.checker.conformance.program import NeededInputs
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.logs import ColumnMap, LogResult, examine
-from rovercheck.checker.logs.cones import LogCone, cones
-from rovercheck.checker.logs.program import NeededInputs
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.abstraction.stamps import NOW
 from tests.logs.recorded import copied, long_log

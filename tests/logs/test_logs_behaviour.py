@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rovercheck.checker.conformance.cones import LogCone, cones
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.follower import Behaviour
+from rovercheck.checker.conformance.program import NeededInputs
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.logs import ColumnMap, examine
-from rovercheck.checker.logs.check import Behaviour
-from rovercheck.checker.logs.cones import LogCone, cones
-from rovercheck.checker.logs.deviations import Deviation
 from rovercheck.checker.logs.mapping import Column
-from rovercheck.checker.logs.program import NeededInputs
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.interpret import Interpreter

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.logs import ColumnMap, LogError
 from rovercheck.checker.logs import files as log_files
-from rovercheck.checker.logs.cells import Raw, converter
+from rovercheck.checker.logs.cells import converter
 from rovercheck.checker.logs.files import BLOCK, opened
 from rovercheck.checker.logs.mapping import Column
 from rovercheck.spec_model.abstraction import BoardSignal, boards

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.logs import ColumnMap, as_on_record, examine
 from rovercheck.checker.logs.cells import converter
 from rovercheck.checker.logs.check import LogResult
@@ -16,7 +17,6 @@ from rovercheck.checker.logs.form_monitors import Judge
 from rovercheck.checker.logs.formula import FormulaRows
 from rovercheck.checker.logs.mapping import Column
 from rovercheck.checker.logs.selection import choose
-from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.forms import (
     Always,

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.conformance.recording import LogBlock
 from rovercheck.checker.logs import ColumnMap, LogError, examine, read_map
-from rovercheck.checker.logs.log import LogBlock, open_log
+from rovercheck.checker.logs.log import open_log
 from rovercheck.spec_model.abstraction import boards
 from tests.logs.recorded import Row, copied, long_log, text, written
 

@@ -8,9 +8,9 @@ from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
 from rovercheck.checker.io.document import Count, Ordinal
 from rovercheck.checker.logs import LogResult, as_on_record
-from rovercheck.checker.logs.deviations import Deviation, DeviationKind
 from rovercheck.checker.logs.invalid import InvalidCell
 from rovercheck.checker.logs.monitors import LogVerdict, LogWord
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from textwrap import fill, shorten
 
 from rovercheck.checker.commands.shared.output import counted, text_width
+from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.io.printable import one_line
 from rovercheck.checker.logs import LogError, LogResult, as_on_record
-from rovercheck.checker.logs.deviations import Deviation
 from rovercheck.checker.logs.invalid import Invalid
 from rovercheck.checker.logs.monitors import LogVerdict
 

@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from rovercheck.checker.logs.cells import Raw
-from rovercheck.checker.logs.cones import LogCone
-from rovercheck.checker.logs.estimator import BeliefOutcome
-from rovercheck.checker.logs.program import Known
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.estimator import BeliefOutcome
+from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.conformance.recording import Raw
 from rovercheck.spec_model.abstraction import Output
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Domain, Num

@@ -5,11 +5,17 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from rovercheck.checker.logs.cells import Raw
-from rovercheck.checker.logs.cones import LogCone
-from rovercheck.checker.logs.estimator import FIRST_RUNS, MORE_RUNS, BeliefOutcome, StateEstimator, TooMany
-from rovercheck.checker.logs.mismatch import LogMismatch, differences, moves, shown
-from rovercheck.checker.logs.program import Known
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.estimator import (
+    FIRST_RUNS,
+    MORE_RUNS,
+    BeliefOutcome,
+    StateEstimator,
+    TooMany,
+)
+from rovercheck.checker.conformance.mismatch import LogMismatch, differences, moves, shown
+from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.conformance.recording import Raw
 
 MOST_LOST = 20
 """How often the states may become too many before the part is given up."""

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from rovercheck.checker.logs.mismatch import LogDifference, LogMismatch
+from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
 
 Key = tuple[object, ...]
 

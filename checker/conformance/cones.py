@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rovercheck.checker.logs.program import ProgramOutput, Step, compiled
+from rovercheck.checker.conformance.program import ProgramOutput, Step, compiled
 from rovercheck.checker.system.partition import expressions, partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.abstraction import Board, Output

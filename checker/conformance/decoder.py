@@ -3,9 +3,8 @@
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
-from rovercheck.checker.logs.cells import Raw
-from rovercheck.checker.logs.log import Cells, LogBlock
-from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
+from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction.interface import Carriage, SignalView
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, MeanOfTen
 from rovercheck.spec_model.lang.system import TICK_MS

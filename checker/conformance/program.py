@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import cast
 
+from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.encode.python_text import text_of
-from rovercheck.checker.logs.cells import Raw
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.expr import Expr, Named, Var
 from rovercheck.spec_model.lang.system import TransitionSystem

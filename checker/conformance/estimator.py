@@ -4,9 +4,9 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from rovercheck.checker.logs.cells import Raw
-from rovercheck.checker.logs.cones import LogCone
-from rovercheck.checker.logs.program import Known, NeededInputs
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.program import Known, NeededInputs
+from rovercheck.checker.conformance.recording import Raw
 from rovercheck.spec_model.lang.domain import Num
 
 MOST_VALUATIONS = 512

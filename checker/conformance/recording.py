@@ -1,0 +1,27 @@
+"""Rows of a recorded run, whoever recorded it: a log, or an implementation beside the charts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+Raw = int | Fraction
+"""A raw value, as in the charts; a fraction lies between two values of a domain."""
+
+Cells = list[Raw | None]
+"""The values of one signal, row by row; ``None`` where it was not recorded."""
+
+
+@dataclass(frozen=True)
+class LogBlock:
+    """Successive rows: the line and the step of each, from 1, and its values by signal.
+
+    ``missing[i]`` steps lie between row i and the one before it.
+    """
+
+    lines: Sequence[int]
+    ticks: Sequence[int]
+    missing: Sequence[int]
+    values: Mapping[str, Cells]
+
+    def __len__(self) -> int:
+        return len(self.lines)
