@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from rovercheck.checker.board_tests.rows import Row, by_board, rows, start_ms
 from rovercheck.checker.results.board_test import BoardTest, BoardUnderTest, SignalKind, StepSignal, Value
-from rovercheck.spec_model.lang.system import TICK_MS
 
 _TYPES = {
     SignalKind.BOOL: "bool", SignalKind.WHOLE: "int32_t", SignalKind.NUMBER: "double",
@@ -69,7 +68,7 @@ def _tables(board: BoardUnderTest, tests: Sequence[BoardTest]) -> str:
     counts = "".join(f"    {_counts(found)}\n" for _, found in shown)
     named = "".join(f'    {{"{_word(t.name)}", {len(found)}, {start_ms(t)}u}},\n' for t, found in shown)
     return (
-        f"#define STEP_MS {TICK_MS}u\n#define NEAR 1e-6\n"
+        f"#define STEP_MS {board.tick_ms}u\n#define NEAR 1e-6\n"
         f"#define INPUTS {len(board.inputs)}\n#define OUTPUTS {len(board.outputs)}\n\n"
         "struct change { int what; double value; }; /* an input, or INPUTS + an output */\n"
         "struct row { int held; int changes; };     /* equal steps, and what changes before them */\n"

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from rovercheck.checker.board_tests.rows import Moment, by_board, clock_of, rows, start_ms
 from rovercheck.checker.results.board_test import BoardTest
-from rovercheck.spec_model.lang.system import TICK_MS
 
 WIDTH = 106
 
@@ -92,7 +91,7 @@ def pytest_file(about: Sequence[str], tests: Sequence[BoardTest]) -> str:
         names=" and ".join(f"`{_quotable(b.implementation)}`" for b in of_board),
         only=f" -k {tests[0].board.name}" if len(of_board) > 1 else "",
         clock=_text(clock_of(tests[0].board.inputs)),
-        tick_ms=TICK_MS,
+        tick_ms=tests[0].board.tick_ms,
         implementations="".join(f"    {_text(b.name)}: {_text(b.implementation)},\n" for b in of_board),
     )
     shown = (
@@ -113,7 +112,7 @@ def _rows(test: BoardTest) -> Iterator[str]:
     for count, given, required in rows(test):
         last = first + count - 1
         steps = f"steps {first} to {last}" if count > 1 else f"step {first}"
-        yield f"            # {steps}, from {start + (first - 1) * TICK_MS} ms\n"
+        yield f"            # {steps}, from {start + (first - 1) * test.board.tick_ms} ms\n"
         row = f"({count}, {_values(given)}, {_values(required)}),"
         lines = textwrap.wrap(row, WIDTH - 12, break_long_words=False, break_on_hyphens=False)
         yield textwrap.indent("\n ".join(lines), " " * 12) + "\n"

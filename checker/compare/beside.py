@@ -1,6 +1,7 @@
 """Charts and implementation side by side: what the charts require of each step, and the first difference."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from math import isclose
@@ -8,8 +9,11 @@ from math import isclose
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values, run
 from rovercheck.checker.compare.stimulus import Stimulus, StimulusPlayer
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Const
 from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
 
 NEAR = 1e-6
@@ -76,10 +80,19 @@ class SteppedCharts:
         self._board = board
         self._reader = board.reader()
         self._interpreter = Interpreter(board.system, measured=True)
+        assumed = board.system.assumed
+        self._assumed = None if isinstance(assumed, Const) and assumed.value else assumed
 
     def valuation(self) -> dict[str, int]:
         """Everything that the charts hold."""
         return self._interpreter.valuation()
+
+    def admits(self, inputs: Values) -> bool:
+        """Whether the system takes for granted that such inputs may come now."""
+        if self._assumed is None:
+            return True
+        raw = deepcopy(self._reader).step(inputs)
+        return bool(evaluate(self._assumed, {**self._interpreter.valuation(), **raw}))
 
     def step(self, inputs: Values) -> ComparedStep:
         """One execution.  Raises ``ModelError`` for inputs that the charts give no meaning to."""
@@ -88,9 +101,19 @@ class SteppedCharts:
 
 
 def played(board: Board, fields: Mapping[str, tuple[str, ...]], stimulus: Stimulus) -> list[ComparedStep]:
-    """What the charts do under a stimulus."""
-    charts = SteppedCharts(board)
-    return [charts.step(inputs) for inputs in StimulusPlayer(board, fields, charts).steps(stimulus)]
+    """What the charts do under a stimulus.
+
+    In place of inputs that the system takes not to come, those of the step before are held; where these may
+    not come either, the run ends.
+    """
+    charts, found = SteppedCharts(board), list[ComparedStep]()
+    for inputs in StimulusPlayer(board, fields, charts).steps(stimulus):
+        if not charts.admits(inputs):
+            inputs = {**(found[-1].inputs if found else board.at_power_up()), NOW: inputs[NOW]}
+            if not charts.admits(inputs):
+                break
+        found.append(charts.step(inputs))
+    return found
 
 
 def rerun(board: Board, inputs: Iterable[Values]) -> list[ComparedStep]:

@@ -28,7 +28,6 @@ from rovercheck.checker.testgen.expected_outputs import under_test
 from rovercheck.checker.testgen.scripts import advance, stamps_of
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import CLOCK
-from rovercheck.spec_model.lang.system import TICK_MS
 
 # --- the runs of a profile with what the charts require, kept to compare many implementations quickly
 
@@ -56,7 +55,7 @@ class RecordedSuite:
             for _ in range(times):
                 advance(inputs, stamps, now, moment)
                 yield inputs, required
-                now = (now + TICK_MS) % CLOCK
+                now = (now + board.tick_ms) % CLOCK
 
 
 def recorded(board: Board, origin: str, steps: Sequence[ComparedStep]) -> RecordedSuite:

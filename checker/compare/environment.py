@@ -57,7 +57,7 @@ class Environment:
     @cached_property
     def timers(self) -> tuple[int, ...]:
         """Lengths just short of, at and just beyond each timer and counter of the charts."""
-        return tuple(sorted({n + d for n in self.values.aims.timers for d in AROUND}))
+        return tuple(sorted({n + d for n in self.values.aims.timers for d in AROUND})) or SHORT
 
     def silences(self, stamp: str) -> tuple[int, ...]:
         """Lengths around the ages that the charts compare the age of this stamp with."""

@@ -103,7 +103,7 @@ class StimulusPlayer:
     """
 
     def __init__(self, board: Board, fields: Mapping[str, tuple[str, ...]], charts: ChartsView) -> None:
-        self._charts = charts
+        self._charts, self._tick_ms = charts, board.tick_ms
         self._data = {**board.system.written, **board.system.inputs}
         self._inputs = board.at_power_up()
         self._wanted = {s.name: s.initial for s in board.inputs if not s.stamp}
@@ -122,7 +122,7 @@ class StimulusPlayer:
                 for name, rate in turning.items():
                     self._wanted[name] = (self._wanted[name] + rate) % FULL_TURN
                 yield self._step(now)
-                now = (now + TICK_MS) % CLOCK
+                now = (now + self._tick_ms) % CLOCK
 
     def _begin(self, block: InputBlock) -> dict[str, float]:
         turning: dict[str, float] = {}

@@ -1,23 +1,41 @@
 """Random stimuli of a board, as Hypothesis draws and shrinks them."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from hypothesis import strategies as st
 
 from rovercheck.checker.compare.environment import Blocks, Environment
-from rovercheck.checker.compare.phases import changes, one_after_another, short, steps
+from rovercheck.checker.compare.phases import (
+    changes,
+    disturb,
+    flicker,
+    one_after_another,
+    rest,
+    short,
+    steps,
+    wait,
+)
 from rovercheck.checker.compare.phases1 import BOARD1
 from rovercheck.checker.compare.phases2 import BOARD2
 from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
+from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import CLOCK
-from rovercheck.spec_model.lang.system import TICK_MS
 
 ENVIRONMENTS: Mapping[str, Environment] = {"board1": BOARD1, "board2": BOARD2}
-"""The environment of each board, by its name."""
+"""The environment of each board of the rover, by its name."""
 PHASES = 24
 """Phases of a stimulus at most; six on average."""
 LONGEST = 1500
 """Steps of a stimulus; what is beyond is cut off."""
+
+
+def environment(board: Board) -> Environment:
+    """The environment of a board of the rover, also with changed charts; of any other what suits all."""
+    known = ENVIRONMENTS.get(board.name)
+    if known is not None and known.board.interface is board.interface:
+        return known if known.board is board else replace(known, board=board)
+    return Environment(board, themes={"anything": ([], (disturb, disturb, flicker, wait, rest))})
 
 
 @st.composite
@@ -26,14 +44,14 @@ def openings(draw: st.DrawFn, env: Environment) -> tuple[int, Blocks]:
     calm = InputBlock(draw(short()), env.at_rest)
     kind = draw(st.sampled_from(("calm", "calm", "calm", "calm", "silent", "some", "wrap")))
     if kind == "silent":
-        return TICK_MS, [InputBlock(draw(steps(env))), calm]
+        return env.board.tick_ms, [InputBlock(draw(steps(env))), calm]
     if kind == "some":
         stamps = draw(st.lists(st.sampled_from(env.values.stamps), unique=True))
         first = (*draw(changes(env)), *((stamp, draw(st.sampled_from(env.lags))) for stamp in stamps))
-        return TICK_MS, [InputBlock(draw(short()), first), InputBlock(draw(short())), calm]
+        return env.board.tick_ms, [InputBlock(draw(short()), first), InputBlock(draw(short())), calm]
     if kind == "wrap":  # every stamp is new in the first step, or it would be as old as the clock
-        return CLOCK - TICK_MS * draw(st.integers(1, 60)), [calm]
-    return TICK_MS, [calm]
+        return CLOCK - env.board.tick_ms * draw(st.integers(1, 60)), [calm]
+    return env.board.tick_ms, [calm]
 
 
 @st.composite

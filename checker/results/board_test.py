@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
+from rovercheck.spec_model.lang.system import TICK_MS
+
 Value = bool | int | float
 
 
@@ -33,13 +35,15 @@ class StepSignal:
 class BoardUnderTest:
     """The signals of a board, one of the inputs its clock.
 
-    ``implementation`` is the one that is run unless another is named, ``KIND:WHAT``.
+    ``implementation`` is the one that is run unless another is named, ``KIND:WHAT``.  Steps are ``tick_ms``
+    apart.
     """
 
     name: str
     inputs: tuple[StepSignal, ...]
     outputs: tuple[StepSignal, ...]
     implementation: str = ""
+    tick_ms: int = TICK_MS
 
 
 @dataclass(frozen=True)
@@ -52,7 +56,7 @@ class BoardStep:
 
 @dataclass(frozen=True)
 class BoardTest:
-    """The steps of a board from power-up, 20 ms apart; ``goals`` are what they reach, in words.
+    """The steps of a board from power-up; ``goals`` are what they reach, in words.
 
     Tests of one board have names that differ.
     """

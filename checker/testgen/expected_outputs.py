@@ -34,7 +34,8 @@ def required(board: Board, inputs: Sequence[Mapping[str, Value]]) -> Iterator[di
 def under_test(board: Board) -> BoardUnderTest:
     """A board as its firmware has it."""
     outputs = tuple(_signal(o.signal) for o in board.outputs)
-    return BoardUnderTest(board.name, tuple(map(_signal, board.inputs)), outputs, board.supervisor)
+    inputs = tuple(map(_signal, board.inputs))
+    return BoardUnderTest(board.name, inputs, outputs, board.supervisor, board.tick_ms)
 
 
 def _signal(signal: BoardSignal) -> StepSignal:

@@ -16,7 +16,6 @@ from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Temporal
 from rovercheck.spec_model.lang.lower import lower
-from rovercheck.spec_model.lang.system import TICK_MS
 from rovercheck.spec_model.lang.walk import nodes
 
 # --- random inputs as a rover meets them ---------------------------------------------------------------
@@ -150,7 +149,7 @@ class TriedRun:
     def step(self, moment: Moment) -> list[str]:
         """One step; the goals reached in it."""
         self.given.append(moment)
-        advance(self.inputs, self.machine.stamps, len(self.given) * TICK_MS, moment)
+        advance(self.inputs, self.machine.stamps, len(self.given) * self.machine.board.tick_ms, moment)
         self.at |= self.reader.step(self.inputs)
         self.machine.step(self.at)
         return [id for id, flag in self.machine.flags if self.at[flag]]

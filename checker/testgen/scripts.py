@@ -8,7 +8,6 @@ from rovercheck.checker.testgen.expected_outputs import under_test
 from rovercheck.spec_model.abstraction import Board, Value
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, since
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import TICK_MS
 
 Script = tuple[Moment, ...]
 """The inputs of a test, step by step from power-up."""
@@ -23,11 +22,14 @@ class Test:
     steps: tuple[Mapping[str, Value], ...]
 
 
-def steps(board: Board, script: Sequence[Moment], start_ms: int = TICK_MS) -> tuple[dict[str, Value], ...]:
-    """The concrete inputs of a script: a step every 20 ms, stamps from the clock."""
+def steps(
+    board: Board, script: Sequence[Moment], start_ms: int | None = None
+) -> tuple[dict[str, Value], ...]:
+    """The concrete inputs of a script, in steps of the board; stamps are from its clock."""
     at, stamps, found = board.at_power_up(), stamps_of(board), []
+    start = board.tick_ms if start_ms is None else start_ms
     for number, moment in enumerate(script):
-        advance(at, stamps, (start_ms + number * TICK_MS) % CLOCK, moment)
+        advance(at, stamps, (start + number * board.tick_ms) % CLOCK, moment)
         found.append(dict(at))
     return tuple(found)
 
@@ -48,14 +50,14 @@ def stamps_of(board: Board) -> frozenset[str]:
 def script(board: Board, given: Sequence[Mapping[str, Value]]) -> Script:
     """The script of concrete inputs.
 
-    Raises ``ModelError`` for steps that are not 20 ms apart: the charts count steps.
+    Raises ``ModelError`` for steps that are not as far apart as the board's: the charts count steps.
     """
     for number, at in enumerate(given):
         after = since(int(at[NOW]), int(given[0][NOW]))
-        if after != TICK_MS * number:
+        if after != board.tick_ms * number:
             raise ModelError(
                 f"Step {number + 1} is at {at[NOW]} ms, {after} ms after the first; "
-                f"steps are {TICK_MS} ms apart, because the charts count them."
+                f"steps are {board.tick_ms} ms apart, because the charts count them."
             )
     return tuple(moments(under_test(board).inputs, given))
 

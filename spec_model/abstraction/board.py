@@ -29,6 +29,11 @@ class Board:
     grid_ms: int
     supervisor: str = ""
 
+    @property
+    def tick_ms(self) -> int:
+        """The time from one step to the next."""
+        return self.system.tick_ms
+
     @cached_property
     def inputs(self) -> tuple[BoardSignal, ...]:
         """The inputs of the firmware, the clock first."""

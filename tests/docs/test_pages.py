@@ -139,7 +139,9 @@ def _understood(command: str) -> None:
     """A command that is not run: a verb with its options, or a target of the Makefile."""
     match shlex.split(command.partition(" && ")[0]):
         case ["rovercheck", verb, *rest]:
-            above = click.Context(app, **app.context_settings)  # click keeps the first names of --help it sees
+            above = click.Context(
+                app, **app.context_settings
+            )  # click keeps the first names of --help it sees
             with app.commands[verb].make_context(verb, rest, parent=above):
                 pass
         case ["make", target]:
