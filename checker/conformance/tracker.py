@@ -9,12 +9,12 @@ from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.estimator import (
     FIRST_RUNS,
     MORE_RUNS,
-    BeliefOutcome,
+    MOST_REMEMBERED,
     StateEstimator,
     TooMany,
 )
-from rovercheck.checker.conformance.mismatch import LogMismatch, differences, moves, shown
-from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.conformance.mismatch import Differences, LogMismatch, shown
+from rovercheck.checker.conformance.program import BeliefOutcome, Known
 from rovercheck.checker.conformance.recording import Raw
 
 MOST_LOST = 20
@@ -58,11 +58,14 @@ class Tracker:
         self.undecided: UndecidedRow | None = None
         self.given_up = False
         self._follow = StateEstimator(cone, tolerance)
+        self.differences = Differences(cone)
+        self.exact: BeliefOutcome | None = None
+        """The step that the charts took from a state and inputs that are known, if they were."""
         self._now = self._follow.power_up() if from_power_up else self._follow.anything({})
         self._own: tuple[Known, ...] | None = self._now if from_power_up else None
         self._lost = False
         self._times_lost = 0
-        self._last: dict[str, Raw] = {}
+        self._last: dict[str, Raw | None] = {}
         self._told = [o.var.name for o in cone.outputs]
         self.required: tuple[Raw | None, ...] = (
             tuple(o.var.init for o in cone.outputs) if from_power_up else ()
@@ -74,6 +77,10 @@ class Tracker:
         if self.given_up:
             return None
         self._follow.runs_left = min(self._follow.runs_left, FIRST_RUNS) + MORE_RUNS
+        self.exact = None
+        if self._exactly(row):
+            self._last = dict(zip(self._told, row.logged, strict=True))
+            return None
         try:
             return self._step(row)
         except TooMany as reason:
@@ -82,6 +89,26 @@ class Tracker:
         finally:
             logged = zip(self._told, row.logged, strict=True)
             self._last = {name: value for name, value in logged if value is not None}
+
+    def _exactly(self, row: TrackedRow) -> bool:
+        """Take the step by itself where state and inputs are known, and it explains the row."""
+        if len(self._now) != 1 or self._own is not self._now or self._lost or row.missing:
+            return False
+        if any(len(options) != 1 for options in row.inputs):
+            return False
+        key = self._now[0], tuple([options[0] for options in row.inputs])
+        outcome = self.cone.remembered.get(key)
+        if outcome is None:
+            if None in key[0] or None in key[1]:
+                return False
+            if len(self.cone.remembered) >= MOST_REMEMBERED:
+                self.cone.remembered.clear()
+            outcome = self.cone.remembered[key] = BeliefOutcome(key[0], *self.cone.step(*key))
+        if not self._follow.explains(outcome, row.logged):
+            return False
+        self._now = self._own = (outcome.after,)
+        self.required, self.exact = outcome.outputs, outcome
+        return True
 
     def _step(self, row: TrackedRow) -> LogMismatch | None:
         if row.missing:
@@ -137,13 +164,10 @@ class Tracker:
             self._now, self._own = self._follow.anything(self._outputs(row)), None
             return None
         best, at = self._nearest(found, row.logged)
-        before = self.required
-        late = bool(before) and all(row.logged[i] == before[i] for i in at)
-        stuck = all(self._last.get(self._told[i]) == row.logged[i] for i in at)
+        last = tuple(self._last.get(name) for name in self._told)
+        wrong = self.differences.told(best, row.logged, at, self.required, last)
         self._stay(row, best)
-        told = moves(self.cone, best)
-        wrong = differences(self.cone, best, row.logged, at)
-        return LogMismatch(row.tick, row.line, self.cone.name, wrong, told, self._inputs(row), late, stuck)
+        return LogMismatch(row.tick, row.line, self.cone.name, wrong, self.inputs(row))
 
     def _nearest(
         self, found: Sequence[BeliefOutcome], logged: Known
@@ -164,7 +188,8 @@ class Tracker:
         else:
             self._own_goes_on(row)
 
-    def _inputs(self, row: TrackedRow) -> dict[str, str]:
+    def inputs(self, row: TrackedRow) -> dict[str, str]:
+        """What the part read, as a person writes it."""
         rows = zip(self.cone.system.inputs, row.inputs, strict=True)
         return {v.name: "not logged" if given[0] is None else shown(v.domain, given[0]) for v, given in rows}
 
