@@ -56,8 +56,8 @@ class LogCone:
 
     ``before``: inputs that are the logged outputs of the tick before.  ``between``: inputs that are not
     logged and of which values between the representative ones may matter.  ``left_out``: logged outputs that
-    are computed from such inputs, which any value might explain.  ``components``: its charts and blocks, in the
-    order of execution.
+    are computed from such inputs, which any value might explain.  ``components``: its charts and blocks, in
+    the order of execution.
     """
 
     system: TransitionSystem

@@ -1,4 +1,4 @@
-"""Distinct deviations: mismatches grouped by what differs and where, however often and in however many recordings."""
+"""Distinct deviations: mismatches grouped by what differs and where, in many recordings."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -21,6 +21,7 @@ ScopedOutput = tuple[str, str, str]
 class DeviationScope:
     """What makes a deviation another one than the next, in words that a file can hold.
 
+    ``kind`` is ``late`` where the outputs are never on time; what is late now and then is a ``value``.
     ``charts``: the transition that the charts took, or the states in which they stayed.
     """
 
@@ -39,11 +40,12 @@ class DeviationScope:
         return f"{board}-{self.outputs[0]}-{sha256(text.encode()).hexdigest()[:6]}"
 
 
-def scope_of(mismatch: LogMismatch, kind: DeviationKind = "value") -> DeviationScope:
+def scope_of(mismatch: LogMismatch) -> DeviationScope:
     """That of one piece of a mismatch: numbers that follow from a discrete output are no part of it."""
     leading = [d for d in mismatch.differences if not d.is_number or d.text] or list(mismatch.differences)
-    keys = tuple(dict.fromkeys((d.output.name, "", "") if kind == "late" else d.key for d in leading))
-    return DeviationScope(kind, mismatch.part, keys, mismatch.moves)
+    return DeviationScope(
+        "value", mismatch.part, tuple(dict.fromkeys(d.key for d in leading)), mismatch.moves
+    )
 
 
 @dataclass(frozen=True)
@@ -51,9 +53,9 @@ class Deviation:
     """One difference: how it shows, where it was first met, how often.
 
     ``kind``: ``value``, ``late`` (the value of the tick before), ``frozen`` (several outputs stay while the
-    charts go on) or ``swapped`` (two columns for each other).  ``first`` is its first mismatch and ``last`` the
-    last tick, of the recording ``origin``; ``count`` the ticks that differ, ``times`` how often it began and
-    ``runs`` in how many recordings.
+    charts go on) or ``swapped`` (two columns for each other).  ``first`` is its first mismatch and ``last``
+    the last tick, of the recording ``origin``; ``count`` the ticks that differ, ``times`` how often it began
+    and ``runs`` in how many recordings.
     """
 
     kind: DeviationKind
@@ -76,11 +78,17 @@ class Deviation:
         better = min(self, other, key=lambda d: (d.first.tick, d.origin))
         return replace(
             better,
+            kind=_kind(self, other),
             count=self.count + other.count,
             times=self.times + other.times,
             runs=self.runs + other.runs,
             differences=tuple(known.values()),
         )
+
+
+def _kind(one: Deviation, other: Deviation) -> DeviationKind:
+    """Late is what is late every time."""
+    return one.kind if one.kind == other.kind else "value"
 
 
 class Grouping:
@@ -161,7 +169,7 @@ class Grouping:
         last, pairs, scope = self._running.get(part, (0, (), None))
         goes_on = kind == "value" and last == mismatch.tick - 1 and pairs == mismatch.key
         if scope is None or not goes_on:
-            scope = scope_of(mismatch, kind)
+            scope = scope_of(mismatch)
         if kind == "value":
             self._running[part] = (mismatch.tick, mismatch.key, scope)
         times = 0 if goes_on else 1
@@ -175,6 +183,7 @@ class Grouping:
         first = new.first if new.first.tick < old.first.tick else old.first
         self._groups[new.scope] = replace(
             old,
+            kind=_kind(old, new),
             first=first,
             last=max(old.last, new.last),
             count=old.count + new.count,
@@ -197,8 +206,8 @@ class WholeEvidence:
     """What is known of outputs over whole recordings.
 
     ``on_time``: those that changed when they had to, at least once.  ``swapped``: pairs that in every tick hold
-    what is required of the other one, and not always what is required of themselves; ``alike``: pairs of which
-    nothing says that they are not.
+    what is required of the other one, and not always what is required of themselves; ``alike``: pairs of
+    which nothing says that they are not.
     """
 
     on_time: frozenset[str] = frozenset()

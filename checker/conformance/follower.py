@@ -1,6 +1,6 @@
 """Is a recording a run of the charts?  Its parts are followed; what differs is grouped by cause."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import permutations
 
@@ -55,6 +55,8 @@ class BoardFollower:
         watched: bool = False,
         may_freeze: bool = True,
     ) -> None:
+        self.heard: Callable[[Sequence[LogMismatch]], None] | None = None
+        """Is told the mismatches of each row that has some."""
         self._met: dict[int, tuple[Tracker, BeliefOutcome]] | None = {} if watched else None
         self._situations: set[Situation] = set()
         self._trackers = [Tracker(cone, tolerance, from_power_up) for cone in parts]
@@ -114,6 +116,8 @@ class BoardFollower:
             if mismatch is not None:
                 found.append(mismatch)
                 now |= {d.output.var.name: _either(d) for d in mismatch.differences}
+        if found and self.heard is not None:
+            self.heard(found)
         self._swaps.note(self._trackers, fetches, i, bool(found))
         self._grouping.tick(tick, found, outputs != self._previous)
         self._previous = outputs

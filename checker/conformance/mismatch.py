@@ -14,6 +14,9 @@ from rovercheck.spec_model.lang.label import text
 
 MOST_EXPECTED = 8
 
+MOST_TOLD_APART = 16
+"""Values of a number of which each is another case, such as a decision."""
+
 
 @dataclass(frozen=True)
 class LogDifference:
@@ -38,7 +41,8 @@ class LogDifference:
     @property
     def is_mask(self) -> bool:
         """Whether its bits are told apart."""
-        return "mask" in self.output.name and len(self.expected) == 1 and self.logged is not None
+        named = "mask" in self.output.name and len(self.expected) == 1
+        return named and self.logged is not None and self.logged == int(self.logged)
 
     @property
     def is_number(self) -> bool:
@@ -54,7 +58,8 @@ class LogDifference:
         name = self.output.name
         if self.text:
             return (name, "a value", self.text)
-        if isinstance(self.output.var.domain.sort, Num) and not self.is_mask:
+        domain = self.output.var.domain
+        if isinstance(domain.sort, Num) and not self.is_mask and len(domain) > MOST_TOLD_APART:
             return (name, "", "")
         if self.is_mask:
             assert self.logged is not None

@@ -15,8 +15,8 @@ Cells = list[Raw | None]
 class LogBlock:
     """Successive rows: the line and the step of each, from 1, and its values by signal.
 
-    ``missing[i]`` steps lie between row i and the one before it.  ``meaningless``: by output, the rows in which
-    it was given but is no value, with its text; its cell there is ``None``.
+    ``missing[i]`` steps lie between row i and the one before it.  ``meaningless``: by output, the rows in
+    which it was given but is no value, with its text; its cell there is ``None``.
     """
 
     lines: Sequence[int]

@@ -215,7 +215,19 @@ class Tracker:
         self._follow.runs_left = left
 
     def _lose(self, row: TrackedRow, what: str) -> None:
-        self._undecided(row, f"too many states; what multiplies them: {what}")
+        """What explains the row is not known: the charts go on by themselves until they agree, if they can."""
+        because = f"too many states; what multiplies them: {what}"
+        if self._own is not None and len(self._own) == 1 and all(len(given) == 1 for given in row.inputs):
+            self._follow.runs_left = max(self._follow.runs_left, MOST_OPTIONS)
+            try:
+                self._own_goes_on(row)
+            except TooMany:
+                self._own = None
+            if self._own is not None:
+                self._now, self._lost = self._own, True
+                self._note_undecided(row, because)
+                return
+        self._undecided(row, because)
         self._now, self._own, self._lost, self.required = (
             self._follow.anything(self._outputs(row)),
             None,
@@ -226,6 +238,9 @@ class Tracker:
     def _undecided(self, row: TrackedRow, because: str) -> None:
         self._times_lost += 1
         self.given_up = self._times_lost >= MOST_LOST
+        self._note_undecided(row, because)
+
+    def _note_undecided(self, row: TrackedRow, because: str) -> None:
         if self.undecided is None:
             self.undecided = UndecidedRow(row.tick, self.cone.name, because)
 
