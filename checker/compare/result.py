@@ -9,7 +9,7 @@ from rovercheck.checker.compare.coverage import (
     TransitionCoverage,
     transitions,
 )
-from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, DeviationTally
 from rovercheck.checker.conformance.follower import Situation
 from rovercheck.spec_model.abstraction import Board
 
@@ -68,9 +68,9 @@ class CompareResult:
 
     ``mismatches`` are the distinct ones, one for each deviation over all runs, what explains most first; the
     first ``small`` of them are told in full. ``uncompared`` are outputs that it never gave, ``compared`` the
-    steps in which it answered.  ``stages`` say what was tried.  ``undecided``: parts of which,
-    after a mismatch, not all could be decided, with the reason and in how many runs.  ``situations`` are what
-    was put to the test and was as required, if that was asked for.
+    steps in which it answered.  ``stages`` say what was tried.  ``undecided``: parts of which, after a
+    mismatch, not all could be decided, with the reason and in how many runs.  ``situations`` are what was put
+    to the test and was as required, if that was asked for; ``tally`` holds the deviations of all runs.
     """
 
     board: Board
@@ -88,6 +88,12 @@ class CompareResult:
     allowance: Allowance = ALLOWED
     undecided: Mapping[tuple[str, str], int] = field(default_factory=dict)
     situations: frozenset[Situation] = frozenset()
+    tally: DeviationTally = field(default_factory=DeviationTally)
+
+    @property
+    def met(self) -> Mapping[DeviationScope, Deviation]:
+        """The deviations as they were met in the runs, before any run was made small."""
+        return {one.scope: one for one in self.tally.deviations()}
 
     @property
     def complete(self) -> bool:

@@ -131,6 +131,7 @@ class CompareSearch:
             self.allowance,
             dict(self._undecided),
             frozenset(self._situations),
+            self.tally,
         )
 
     def _mismatches(self) -> list[StepMismatch]:

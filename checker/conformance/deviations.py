@@ -205,8 +205,8 @@ def _names(mismatch: LogMismatch) -> list[str]:
 class WholeEvidence:
     """What is known of outputs over whole recordings.
 
-    ``on_time``: those that changed when they had to, at least once.  ``swapped``: pairs that in every tick hold
-    what is required of the other one, and not always what is required of themselves; ``alike``: pairs of
+    ``on_time``: those that changed when they had to, at least once.  ``swapped``: pairs that always hold
+    what is required of the other one, and not always their own; ``alike``: pairs of
     which nothing says that they are not.
     """
 

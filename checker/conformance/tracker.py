@@ -215,7 +215,7 @@ class Tracker:
         self._follow.runs_left = left
 
     def _lose(self, row: TrackedRow, what: str) -> None:
-        """What explains the row is not known: the charts go on by themselves until they agree, if they can."""
+        """What explains the row is not known: the charts go on by themselves if they can."""
         because = f"too many states; what multiplies them: {what}"
         if self._own is not None and len(self._own) == 1 and all(len(given) == 1 for given in row.inputs):
             self._follow.runs_left = max(self._follow.runs_left, MOST_OPTIONS)
