@@ -241,8 +241,29 @@ class DeviationTally:
     def deviations(self) -> tuple[Deviation, ...]:
         """All of them, what explains most first: in most recordings, then in most ticks."""
         evidence = self.evidence or WholeEvidence()
-        found = tuple(swapped(tuple(always_late(self.groups.values(), evidence.on_time)), evidence.swapped))
+        plain = tuple(without_ambiguous(tuple(self.groups.values())))
+        found = tuple(swapped(tuple(always_late(plain, evidence.on_time)), evidence.swapped))
         return tuple(sorted(found, key=lambda d: (-d.runs, -d.count, d.first.tick, d.scope)))
+
+
+def without_ambiguous(found: Sequence[Deviation]) -> Iterator[Deviation]:
+    """What may be after several moves of the charts joins the same difference after one of them, if any."""
+    groups = {one.scope: one for one in found if not _ambiguous(one)}
+    for one in filter(_ambiguous, found):
+        same = [
+            d for s, d in groups.items() if (s.part, s.differences) == (one.scope.part, one.scope.differences)
+        ]
+        nearest = max(same, key=lambda d: (d.runs, d.count, d.scope), default=one)
+        if nearest is one:
+            groups[one.scope] = one
+        else:
+            joined = replace(nearest, count=nearest.count + one.count, times=nearest.times + one.times)
+            groups[nearest.scope] = joined
+    yield from groups.values()
+
+
+def _ambiguous(one: Deviation) -> bool:
+    return any(d.ambiguous for d in one.first.differences)
 
 
 def always_late(found: Iterable[Deviation], on_time: Iterable[str]) -> Iterator[Deviation]:

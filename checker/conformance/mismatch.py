@@ -26,6 +26,7 @@ class LogDifference:
     no choice; of a measured number the states after the step.  ``decided_by``: these charts, in words.
     ``late``: it is what was required in the tick before; ``stuck``: it is what it was then.  ``bit``: of a
     mask, the bit that is meant.  ``text``: what was given instead of a value; ``logged`` is then ``None``.
+    ``ambiguous``: several moves of the charts are as near.
     """
 
     output: Output
@@ -37,6 +38,7 @@ class LogDifference:
     stuck: bool = False
     bit: int = 0
     text: str = ""
+    ambiguous: bool = False
 
     @property
     def is_mask(self) -> bool:
@@ -185,7 +187,9 @@ class Differences:
             assert got is not None, "what is not logged differs from nothing"
             late, stuck = bool(before) and got == before[i], got == last[i]
             one = LogDifference(self._cone.outputs[i], tuple(expected), got, late=late, stuck=stuck)
-            found.append(replace(one, moves=self.moves(i, best), decided_by=self._deciders[i].told))
+            moves, told = self.moves(i, best), self._deciders[i].told
+            ambiguous = not moves and len(best) > 1 and bool(self._deciders[i].charts)
+            found.append(replace(one, moves=moves, decided_by=told, ambiguous=ambiguous))
         return tuple(found)
 
     def meaningless(self, name: str, text: str, outcome: BeliefOutcome | None) -> LogDifference:

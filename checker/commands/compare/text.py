@@ -1,11 +1,12 @@
 """The report of a cross-check, for people in 80 columns and for machines."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 
 from rovercheck.checker.board_tests.rows import in_rows
+from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
@@ -13,22 +14,15 @@ from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.coverage import taken
 from rovercheck.checker.compare.reproduce import script_of
 from rovercheck.checker.compare.result import CompareResult, CompareStage, Failure
-from rovercheck.checker.compare.run_follower import MISSING
 from rovercheck.checker.compare.smaller import columns
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
-from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
+from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownJudgement
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 from rovercheck.spec_model.lang.system import TICK_MS
 
 BEFORE = 3
 """Steps before that of the mismatch of which the transitions are told."""
-KINDS: Mapping[DeviationKind, str] = {
-    "value": "",
-    "late": ", one step late",
-    "frozen": ", they stay while the charts go on",
-    "swapped": ", each is what is required of the other",
-}
 
 
 @dataclass(frozen=True)
@@ -55,21 +49,6 @@ class CrosscheckReport:
         """Whether nothing but the known differs in every run that was asked for, and all was decided."""
         result = self.result
         return result.conclusive and not self.differs and not (result.mismatches and result.undecided)
-
-
-def headline(deviation: Deviation) -> str:
-    """The part in which a deviation arises, and what it gives instead of what: in a sentence without end."""
-    told = []
-    for name, expected, actual in deviation.scope.differences:
-        if not expected:
-            told.append(f"{name} differs")
-        elif expected.startswith("0x"):
-            told.append(f"{name} has {actual} instead of {expected} of these bits")
-        elif expected == "a value":
-            told.append(f"{name} is {actual}" + ("" if actual == MISSING else ", which is no value"))
-        else:
-            told.append(f"{name} is {actual} instead of {expected}")
-    return f"{deviation.first.decided_by}: {', '.join(told)}{KINDS[deviation.kind]}"
 
 
 def often(deviation: Deviation, result: CompareResult) -> str:

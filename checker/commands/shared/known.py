@@ -147,7 +147,8 @@ def known_lines(judgement: KnownJudgement) -> Iterator[str]:
             yield f"Known deviation {one.id} is {NOTES[word]}."
         elif word == "expired":
             assert one.until is not None
-            yield f"Known deviation {one.id} has expired on {one.until.isoformat()}: it is not known any more."
+            day = one.until.isoformat()
+            yield f"Known deviation {one.id} has expired on {day}: it is not known any more."
         elif word == "changed":
             yield f"Known deviation {one.id} has changed: another one was met in its place."
 
