@@ -24,7 +24,7 @@ DIFFERENCE = ("output", "expected", "actual")
 TOP = ("format", "charts", "deviation")
 
 HEAD = """\
-# Known deviations from the charts: expected, and checked on (docs/known.md).
+# Known deviations from the charts: expected, and checked on (docs/compare.md).
 # Fill in reason, owner and until (a date, or "never"); the other lines say what is known.
 """
 

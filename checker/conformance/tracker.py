@@ -124,7 +124,7 @@ class Tracker:
         return None
 
     def _only_numbers(self, row: TrackedRow) -> bool:
-        """Whether the charts' own run differs in computed numbers alone: its state is then not in question."""
+        """Whether the charts' own run differs in numbers alone: its state is then not in question."""
         if self._own is None or all(self._numbers):
             return False
         found, _ = self._fitting(self._own, row)

@@ -10,17 +10,17 @@ import pytest
 from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, Values
 from rovercheck.checker.compare import CompareResult, RecordedRun, effort
-from rovercheck.checker.compare.beside import answers, played
+from rovercheck.checker.compare.beside import answers
 from rovercheck.checker.compare.recorded_runs import counterexamples
 from rovercheck.checker.compare.result import Allowance
 from rovercheck.checker.compare.run_follower import RunFollower
 from rovercheck.checker.compare.search import CompareSearch, Run
-from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.deviations import scope_of
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction import boards
+from tests.compare.scenes import scenes
 
 OURS = {
     "board1": "rovercheck.supervisor.board1:Board1",
@@ -57,35 +57,11 @@ class Changed:
         self._right.close()
 
 
-SCENES: dict[str, dict[str, list[tuple[int, dict[str, float]]]]] = {
-    "board1": {
-        "warm, then hot": [(5, {}), (10, {"temperature_degC": 57}), (5, {"temperature_degC": 25}),
-                           (210, {"temperature_degC": 62}), (10, {"temperature_degC": 25})],
-        "battery": [(5, {}), (10, {"battery_pct": 20}), (260, {"battery_pct": 10})],
-        "wheel": [(5, {}), (20, {"hasNoFeedback_FL": True}), (20, {"isMotionConsistent": False}),
-                  (5, {"hasNoFeedback_FL": False, "isMotionConsistent": True})],
-        "driving": [(5, {}), (170, {"y_norm": 0.8}), (30, {"x_norm": 0.4}), (20, {"y_norm": 0.0})],
-    },
-    "board2": {
-        "obstacle": [(5, {}), (20, {"ay_norm": 0.8}), (20, {"d2": 60}), (60, {"d2": 301})],
-        "in charge": [(5, {"crit_mask_b1": 4}), (200, {"ay_norm": 0.8}), (20, {"d1": 50}), (20, {"d1": 301})],
-    },
-}  # fmt: skip
-
-
 @cache
 def runs(board: str) -> tuple[Run, ...]:
     """Scenes with a part of the board each, and some runs of the model checker."""
     env = ENVIRONMENTS[board]
-    made: list[Run] = []
-    for name, blocks in SCENES[board].items():
-        (steps, first), *rest = blocks
-        held = [
-            InputBlock(steps, (*env.at_rest, *first.items())),
-            *(InputBlock(n, tuple(c.items())) for n, c in rest),
-        ]
-        made.append((name, played(env.board, env.fields, Stimulus(tuple(held)))))
-    return (*made, *islice(counterexamples(env.board), 15))
+    return (*scenes(env), *islice(counterexamples(env.board), 15))
 
 
 def search(
