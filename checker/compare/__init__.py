@@ -3,6 +3,7 @@
 from rovercheck.checker.compare.beside import ComparedStep, StepDifference, StepMismatch
 from rovercheck.checker.compare.check import cross_check, known_runs, quick_check
 from rovercheck.checker.compare.result import Allowance, CompareResult, CompareStage, Failure
+from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.compare.search import CompareEffort, effort
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "CompareStage",
     "ComparedStep",
     "Failure",
+    "RecordedRun",
     "StepDifference",
     "StepMismatch",
     "cross_check",

@@ -8,6 +8,7 @@ from math import isclose
 
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values, run
 from rovercheck.checker.compare.stimulus import Stimulus, StimulusPlayer
+from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import parts
@@ -43,15 +44,21 @@ class StepDifference:
 
 @dataclass(frozen=True)
 class StepMismatch:
-    """A run whose last step, and no other, has outputs that the charts do not allow.
+    """A run whose last step has outputs that the charts do not allow.
 
-    The first difference is that of the component that executes first.
+    With a ``deviation`` they are those of one part of the board, which was fed with what the implementation
+    itself gives upstream; other parts may have differed before (``earlier``: in how many steps).  Without one
+    they are all outputs of the first step in which any differs, that of the component that executes first at
+    the beginning.  ``small``: the run was made as small as the budget allowed to find.
     """
 
     board: Board
     steps: tuple[ComparedStep, ...]
     differences: tuple[StepDifference, ...]
     origin: str = ""
+    deviation: Deviation | None = None
+    earlier: int = 0
+    small: bool = False
 
     @property
     def tick(self) -> int:
@@ -60,13 +67,15 @@ class StepMismatch:
 
     @property
     def transitions(self) -> tuple[FiredTransition, ...]:
-        """The transitions that the charts took in that step, those of the chart at fault first."""
+        """The transitions that the charts took in that step from power-up, those of the author first."""
         author = author_of(self.board, self.differences[0].name)
         return tuple(sorted(self.steps[-1].fired, key=lambda fired: fired.chart != author))
 
     @property
     def key(self) -> tuple[object, ...]:
         """Mismatches with one key are one: the same output first, after the same transition of its chart."""
+        if self.deviation is not None:
+            return (self.board.name, self.deviation.scope)
         first = self.differences[0].name
         author = author_of(self.board, first)
         transitions = [(f.source, f.target, f.order) for f in self.steps[-1].fired if f.chart == author]
@@ -120,6 +129,26 @@ def rerun(board: Board, inputs: Iterable[Values]) -> list[ComparedStep]:
     """What the charts do under concrete inputs."""
     charts = SteppedCharts(board)
     return [charts.step(one) for one in inputs]
+
+
+def answers(inputs: Sequence[Values], implementation: Implementation) -> tuple[Values, ...]:
+    """What an implementation gives in all steps, starting at power-up.  Raises ``ImplementationError``."""
+    implementation.reset()
+    found: list[Values] = []
+    for start in range(0, len(inputs), BATCH):
+        found += run(implementation, inputs[start : start + BATCH])
+    return tuple(found)
+
+
+def differing(steps: Sequence[ComparedStep], outputs: Sequence[Values]) -> int:
+    """In how many steps outputs are not as the charts require that run from power-up by themselves."""
+    seen: set[str] = set()
+    count = 0
+    for step, actual in zip(steps, outputs, strict=True):
+        if not actual.keys() <= seen:
+            seen.update(actual)
+        count += differs(step.expected, actual, seen)
+    return count
 
 
 def compared(

@@ -20,6 +20,7 @@ from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
+from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.results.board_test import BoardStep, BoardTest
@@ -133,17 +134,28 @@ def cross_check(
     folder: Path | None = None,
     allowance: Allowance = ALLOWED,
     progress: Progress = lambda search: None,
+    watched: bool = False,
+    deviating: Callable[[RecordedRun], None] = lambda run: None,
 ) -> CompareResult:
     """Compare an implementation with the charts of ``board1`` or ``board2``, or with changed ones.
 
     ``effort`` is how many runs are drawn, from which seed; ``folder`` holds further tests; ``allowance``
-    says what is spent on mismatches.  Of changed charts kept runs are inputs only: what they require is
-    computed anew.
+    says what is spent on mismatches; ``watched``: whether the result says what was put to the test;
+    ``deviating`` is given each run in which the implementation differs, to its end.  Of changed charts kept
+    runs are inputs only: what they require is computed anew.
     """
     env = ENVIRONMENTS[board if isinstance(board, str) else board.name]
     if not isinstance(board, str):
         env = replace(env, board=board)
-    search = CompareSearch(env, implementation, effort, allowance=allowance, progress=progress)
+    search = CompareSearch(
+        env,
+        implementation,
+        effort,
+        allowance=allowance,
+        progress=progress,
+        watched=watched,
+        deviating=deviating,
+    )
     return search.run(_known(env, folder))
 
 

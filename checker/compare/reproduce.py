@@ -52,6 +52,11 @@ def _about(found: Found, charts: str) -> Iterator[str]:
     if isinstance(found, Failure):
         yield ascii(found.message.splitlines()[0])[1:-1]
         return
+    if found.earlier:
+        yield (
+            f"Other outputs differ before, in {found.earlier} of the steps: the test fails there first, and "
+            "shows this one when they are repaired."
+        )
     signal = {o.name: o.signal for o in found.board.outputs}
     for d in found.differences:
         was = "missing" if d.actual is None else signal[d.name].show(d.actual)

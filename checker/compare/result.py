@@ -1,6 +1,6 @@
 """What a cross-check found: distinct mismatches, what was exercised, and what was not compared."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rovercheck.checker.compare.beside import ComparedStep, StepMismatch
@@ -9,6 +9,8 @@ from rovercheck.checker.compare.coverage import (
     TransitionCoverage,
     transitions,
 )
+from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, DeviationTally
+from rovercheck.checker.conformance.follower import Situation
 from rovercheck.spec_model.abstraction import Board
 
 FIXED, RANDOM = "fixed runs", "random runs"
@@ -20,11 +22,13 @@ class Allowance:
     """What is spent on an implementation that differs; the rest is told, but not looked into."""
 
     mismatches: int = 5
-    """Distinct mismatches, the shortest, that are made small and told in full; the others in a line each."""
+    """Distinct mismatches that are made small and told in full, those that explain most."""
     failures: int = 3
     """Runs that the implementation may fail to survive before no more are tried."""
     budget: int = 30_000
     """Steps that may be spent on making one mismatch small."""
+    total: int = 150_000
+    """Steps that may be spent on making mismatches small, on all of them together."""
 
 
 ALLOWED = Allowance()
@@ -62,9 +66,11 @@ class Failure:
 class CompareResult:
     """One cross-check of one implementation.
 
-    ``mismatches`` are the distinct ones, by output and transition; the first ``small`` of them are made
-    small. ``uncompared`` are outputs that the implementation never gave, ``compared`` the steps in which it
-    was: a run ends at its first mismatch.  ``stages`` say what was tried.
+    ``mismatches`` are the distinct ones, one for each deviation over all runs, what explains most first; the
+    first ``small`` of them are told in full. ``uncompared`` are outputs that it never gave, ``compared`` the
+    steps in which it answered.  ``stages`` say what was tried.  ``undecided``: parts of which, after a
+    mismatch, not all could be decided, with the reason and in how many runs.  ``situations`` are what was put
+    to the test and was as required, if that was asked for; ``tally`` holds the deviations of all runs.
     """
 
     board: Board
@@ -80,6 +86,24 @@ class CompareResult:
     stages: tuple[CompareStage, ...] = ()
     compared: int = 0
     allowance: Allowance = ALLOWED
+    undecided: Mapping[tuple[str, str], int] = field(default_factory=dict)
+    situations: frozenset[Situation] = frozenset()
+    tally: DeviationTally = field(default_factory=DeviationTally)
+
+    @property
+    def met(self) -> Mapping[DeviationScope, Deviation]:
+        """The deviations as they were met in the runs, before any run was made small."""
+        return {one.scope: one for one in self.tally.deviations()}
+
+    @property
+    def complete(self) -> bool:
+        """Whether all runs that were asked for were tried."""
+        return not self.interrupted and not any(stage.because for stage in self.stages)
+
+    @property
+    def deviations(self) -> tuple[Deviation, ...]:
+        """Those that the mismatches are of, in their order."""
+        return tuple(m.deviation for m in self.mismatches if m.deviation is not None)
 
     @property
     def conclusive(self) -> bool:

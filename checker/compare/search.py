@@ -1,14 +1,15 @@
 """The search for mismatches: fixed runs, recorded runs, then random ones that Hypothesis draws."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from random import SystemRandom
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
-from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, compared, played
+from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, answers, differing, played
 from rovercheck.checker.compare.coverage import TransitionCoverage
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.result import (
@@ -20,9 +21,12 @@ from rovercheck.checker.compare.result import (
     CompareStage,
     Failure,
 )
-from rovercheck.checker.compare.smaller import Budget, smaller
+from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
+from rovercheck.checker.compare.smaller import Budget, mismatch_of, smaller
 from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import stimuli
+from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
+from rovercheck.checker.conformance.follower import Situation
 
 CI_SEED = 5
 NIGHTLY = 20
@@ -63,7 +67,11 @@ class Enough(BaseException):
 
 @dataclass
 class CompareSearch:
-    """One cross-check under way."""
+    """One cross-check under way.
+
+    ``record`` is given what the charts do in each run, ``deviating`` each run of the implementation that is
+    not theirs.  ``watched``: whether the result says what was put to the test.
+    """
 
     env: Environment
     implementation: Implementation
@@ -73,7 +81,9 @@ class CompareSearch:
     progress: Progress = lambda search: None
     record: Callable[[str, list[ComparedStep]], None] = lambda origin, steps: None
     coverage: TransitionCoverage = field(init=False)
-    found: dict[tuple[object, ...], StepMismatch] = field(default_factory=dict)
+    watched: bool = False
+    deviating: Callable[[RecordedRun], None] = lambda run: None
+    tally: DeviationTally = field(default_factory=DeviationTally)
     failures: list[Failure] = field(default_factory=list)
     doing: str = FIXED
     tried: dict[str, int] = field(default_factory=lambda: {FIXED: 0, RANDOM: 0})
@@ -84,7 +94,11 @@ class CompareSearch:
         self.coverage = TransitionCoverage(self.env.board)
         self._seen: set[str] = set()
         self._complete = False
-        self._small: dict[tuple[object, ...], StepMismatch] = {}
+        self._small: list[StepMismatch] = []
+        self._follower = RunFollower(self.env.board, self.watched)
+        self._runs: dict[tuple[str, int], RecordedRun] = {}
+        self._undecided = Counter[tuple[str, str]]()
+        self._situations = set[Situation]()
 
     def run(self, runs: Iterable[Run] = ()) -> CompareResult:
         """Try these runs, then random ones; what was found so far also after Ctrl-C."""
@@ -99,13 +113,13 @@ class CompareSearch:
         return self._result()
 
     def _result(self) -> CompareResult:
-        small = sorted(self._small.values(), key=_length)
-        others = sorted((m for key, m in self.found.items() if key not in self._small), key=_length)
+        told = {one.key for one in self._small}
+        others = [one for one in self._mismatches() if one.key not in told]
         return CompareResult(
             self.env.board,
             self.coverage,
-            (*small, *others),
-            len(small),
+            (*self._small, *others),
+            len(self._small),
             tuple(sorted(self.failures, key=lambda f: f.tick)),
             tuple(o.name for o in self.env.board.outputs if o.name not in self._seen),
             notes(self.implementation),
@@ -115,7 +129,17 @@ class CompareSearch:
             self._stages(),
             self.compared,
             self.allowance,
+            dict(self._undecided),
+            frozenset(self._situations),
+            self.tally,
         )
+
+    def _mismatches(self) -> list[StepMismatch]:
+        """The distinct mismatches so far, what explains most first."""
+        return [self._mismatch(one) for one in self.tally.deviations()]
+
+    def _mismatch(self, deviation: Deviation) -> StepMismatch:
+        return mismatch_of(self._runs[deviation.origin, deviation.first.tick], deviation)
 
     def _stages(self) -> tuple[CompareStage, ...]:
         """How much of each kind of runs was tried, and why not all of it."""
@@ -136,12 +160,16 @@ class CompareSearch:
         return len(self.failures) >= self.allowance.failures
 
     def _make_small(self) -> None:
-        """Make the mismatches small that are told in full, the shortest first."""
-        todo = sorted(self.found.items(), key=lambda item: _length(item[1]))[: self.allowance.mismatches]
-        for number, (key, mismatch) in enumerate(todo, 1):
+        """Make the mismatches small that are told in full, what explains most first."""
+        todo = self._mismatches()[: self.allowance.mismatches]
+        left = self.allowance.total
+        for number, mismatch in enumerate(todo, 1):
             self.doing = f"making mismatch {number} of {len(todo)} small"
             self.progress(self)
-            self._small[key] = smaller(self.env, mismatch, self.implementation, Budget(self.allowance.budget))
+            budget = Budget(min(left, self.allowance.budget))
+            before = budget.left
+            self._small.append(smaller(self.env, mismatch, self.implementation, budget, self._follower))
+            left -= min(before, before - budget.left)
 
     def _try_all(self, runs: Iterable[Run]) -> None:
         for origin, steps in runs:
@@ -153,40 +181,47 @@ class CompareSearch:
         self.attempt(origin, steps)
         self.progress(self)
 
-    def attempt(self, origin: str, steps: list[ComparedStep]) -> StepMismatch | None:
-        """Compare one run.  Raises ``Enough`` when the search is over."""
+    def attempt(self, origin: str, steps: list[ComparedStep]) -> None:
+        """Compare one run to its end.  Raises ``Enough`` when the search is over."""
         self.coverage.add(steps)
         self.record(origin, steps)
-        answered = len(steps)
         try:
-            mismatch = self._compared(steps)
+            outputs = self._answers(steps)
         except ImplementationError as error:
-            mismatch, answered = self._failed(origin, steps, error), max(0, error.step - 1)
-        self.compared += answered if mismatch is None else mismatch.tick
-        if mismatch is not None:
-            mismatch = self._keep(replace(mismatch, origin=origin))
-        if self._hopeless or (self.stop_early and (self.failures or self.found)):
+            outputs = self._failed(origin, steps, error)
+        self.compared += len(outputs)
+        answered = steps[: len(outputs)]
+        if self.watched or differing(answered, outputs):
+            self._follow(RecordedRun(self.env.board, origin, tuple(answered), outputs))
+        if self._hopeless or (self.stop_early and (self.failures or self.tally.groups)):
             raise Enough
-        return mismatch
 
-    def _compared(self, steps: list[ComparedStep]) -> StepMismatch | None:
-        return compared(self.env.board, steps, _Listening(self.implementation, self._seen))
+    def _answers(self, steps: list[ComparedStep]) -> tuple[Values, ...]:
+        return answers([step.inputs for step in steps], _Listening(self.implementation, self._seen))
 
     def _failed(
         self, origin: str, steps: list[ComparedStep], error: ImplementationError
-    ) -> StepMismatch | None:
-        """Keep the failure; what differs in the steps before it, whose outputs were lost."""
+    ) -> tuple[Values, ...]:
+        """Keep the failure; what was answered in the steps before it, whose outputs were lost."""
         failed = tuple(steps[: error.step])
         self.failures.append(Failure(self.env.board, origin, str(error), failed))
         with suppress(ImplementationError):  # it failed earlier this time
-            return self._compared(steps[: error.step - 1]) if error.step > 1 else None
-        return None
+            return self._answers(steps[: error.step - 1]) if error.step > 1 else ()
+        return ()
 
-    def _keep(self, mismatch: StepMismatch) -> StepMismatch:
-        known = self.found.get(mismatch.key)
-        if known is None or mismatch.tick < known.tick:
-            self.found[mismatch.key] = mismatch
-        return mismatch
+    def _follow(self, run: RecordedRun) -> None:
+        """Part by part through the charts, to the end."""
+        found = self._follower.behaviour(run)
+        self._situations |= found.situations
+        groups, evidence = found.tally.groups, found.tally.evidence
+        if not groups and not found.undecided:
+            return
+        for part in found.undecided:
+            self._undecided[part.part, part.because] += 1
+        self.deviating(run)
+        for one in groups.values():
+            self._runs[run.origin, one.first.tick] = run.up_to(one.first.tick)
+        self.tally.add(groups.values(), evidence or WholeEvidence(), run.origin)
 
     # --- by Hypothesis ---
 
@@ -209,11 +244,6 @@ class CompareSearch:
             suppress_health_check=list(HealthCheck),
         )
         seed(self.effort.seed)(drawing(given(stimuli(self.env))(one)))()
-
-
-def _length(mismatch: StepMismatch) -> tuple[int, str]:
-    """The order in which mismatches are told."""
-    return mismatch.tick, str(mismatch.key)
 
 
 @dataclass

@@ -5,14 +5,24 @@ the step it was renewed, or None.  So a step can be left out without the clock n
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Value, Values
-from rovercheck.checker.compare.beside import StepMismatch, compared, rerun
+from rovercheck.checker.compare.beside import (
+    StepDifference,
+    StepMismatch,
+    answers,
+    compared,
+    differing,
+    rerun,
+)
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.result import ALLOWED
+from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
+from rovercheck.checker.conformance.deviations import Deviation, scope_of
 from rovercheck.checker.testgen.scripts import script, steps
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.signals import units
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -63,11 +73,31 @@ class Budget:
         return self.left >= 0
 
 
+def mismatch_of(run: RecordedRun, deviation: Deviation) -> StepMismatch:
+    """A deviation where it was first met: in the last step of a run."""
+    step, actual = run.steps[-1], run.outputs[-1]
+    told: dict[str, StepDifference] = {}
+    for one in deviation.first.differences:
+        expected = units(one.output.var.domain, one.expected[0]) if one.expected else None
+        if expected is None:
+            expected = step.expected.get(one.output.name, one.output.signal.initial)
+        told[one.output.name] = StepDifference(one.output.name, expected, actual.get(one.output.name))
+    earlier = differing(run.steps[:-1], run.outputs[:-1])
+    return StepMismatch(run.board, run.steps, tuple(told.values()), run.origin, deviation, earlier)
+
+
 def smaller(
-    env: Environment, mismatch: StepMismatch, implementation: Implementation, budget: Budget | None = None
+    env: Environment,
+    mismatch: StepMismatch,
+    implementation: Implementation,
+    budget: Budget | None = None,
+    follower: RunFollower | None = None,
 ) -> StepMismatch:
     """A mismatch with the same key in a run that is as small as the budget allows to find."""
-    work = _Work(env, mismatch, implementation, budget or Budget(ALLOWED.budget))
+    budget = budget or Budget(ALLOWED.budget)
+    if budget.left <= 0:
+        return mismatch
+    work = _Work(env, mismatch, implementation, budget, follower)
     before = None
     _fewer_steps(work, len(work.run) // 8)
     _calm_together(work)
@@ -79,17 +109,25 @@ def smaller(
             _fewer_changes(work, name)
     for name in before.columns:
         _plainer(work, name)
-    return work.best
+    return work.made()
 
 
 class _Work:
     """The smallest run so far."""
 
     def __init__(
-        self, env: Environment, mismatch: StepMismatch, implementation: Implementation, budget: Budget
+        self,
+        env: Environment,
+        mismatch: StepMismatch,
+        implementation: Implementation,
+        budget: Budget,
+        follower: RunFollower | None,
     ) -> None:
-        self.env, self.best, self.budget = env, mismatch, budget
+        self.env, self.budget = env, budget
         self._implementation = implementation
+        self._mismatch, self._deviation = mismatch, mismatch.deviation
+        self._follower = follower or RunFollower(env.board)
+        self._outputs: tuple[Values, ...] = ()
         self.run = columns(env.board, [step.inputs for step in mismatch.steps])
 
     def accepts(self, run: InputColumns) -> bool:
@@ -98,21 +136,42 @@ class _Work:
             return True
         if not len(run) or not self.budget.take(len(run)):
             return False
-        found = self._compared(run)
-        if found is None or found.key != self.best.key:
-            return False
-        self.best = found
-        self.run = columns(self.env.board, [step.inputs for step in found.steps])
-        return True
-
-    def _compared(self, run: InputColumns) -> StepMismatch | None:
-        board = self.env.board
         try:
-            found = compared(board, rerun(board, run.inputs(board)), self._implementation)
+            found = self._same(run) if self._deviation is None else self._followed(run, self._deviation)
         except (ImplementationError, ModelError):  # not the difference that is looked for
+            return False
+        if found is not None:
+            self.run = found
+        return found is not None
+
+    def _same(self, run: InputColumns) -> InputColumns | None:
+        """The run up to the first difference from the charts as a whole."""
+        board = self.env.board
+        found = compared(board, rerun(board, run.inputs(board)), self._implementation)
+        if found is None or found.key != self._mismatch.key:
             return None
-        return (
-            None if found is None else StepMismatch(board, found.steps, found.differences, self.best.origin)
+        self._mismatch = replace(found, origin=self._mismatch.origin)
+        return columns(board, [step.inputs for step in found.steps])
+
+    def _followed(self, run: InputColumns, deviation: Deviation) -> InputColumns | None:
+        """The run up to the same mismatch of the same part."""
+        inputs = run.inputs(self.env.board)
+        outputs = answers(inputs, self._implementation)
+        found = self._follower.first(inputs, outputs, scope_of(deviation.first))
+        if found is None:
+            return None
+        self._deviation = replace(deviation, first=found)
+        self._outputs = outputs[: found.tick]
+        return columns(self.env.board, inputs[: found.tick])
+
+    def made(self) -> StepMismatch:
+        """The mismatch in the smallest run."""
+        if self._deviation is None or not self._outputs:
+            return replace(self._mismatch, small=True)
+        board, origin = self.env.board, self._mismatch.origin
+        steps = tuple(rerun(board, self.run.inputs(board)))
+        return replace(
+            mismatch_of(RecordedRun(board, origin, steps, self._outputs), self._deviation), small=True
         )
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rovercheck.checker.conformance.program import ProgramOutput, Step, compiled
+from rovercheck.checker.conformance.program import BeliefOutcome, Known, ProgramOutput, Step, compiled
 from rovercheck.checker.system.partition import expressions, partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.abstraction import Board, Output
@@ -56,7 +56,8 @@ class LogCone:
 
     ``before``: inputs that are the logged outputs of the tick before.  ``between``: inputs that are not
     logged and of which values between the representative ones may matter.  ``left_out``: logged outputs that
-    are computed from such inputs, which any value might explain.
+    are computed from such inputs, which any value might explain.  ``components``: its charts and blocks, in
+    the order of execution.
     """
 
     system: TransitionSystem
@@ -65,6 +66,7 @@ class LogCone:
     before: frozenset[str]
     between: frozenset[str]
     left_out: tuple[str, ...]
+    components: tuple[Chart | Block, ...] = ()
 
     @property
     def name(self) -> str:
@@ -73,6 +75,11 @@ class LogCone:
     @cached_property
     def step(self) -> Step:
         return compiled(self.system, [ProgramOutput(o.var, o.unless) for o in self.outputs])
+
+    @cached_property
+    def remembered(self) -> dict[tuple[Known, Known], BeliefOutcome]:
+        """Steps taken with everything known, by state and inputs."""
+        return {}
 
     @cached_property
     def _roots(self) -> list[Expr]:
@@ -199,7 +206,8 @@ def _cone(
     least = _least(lowered, own)
     before = frozenset(v.name for v in least.inputs if v.name in cuts and _read_before(v.name, group, parts))
     charts = tuple(p.component for p in group if isinstance(p.component, Chart))
-    return LogCone(least, own, charts, before, _between(least, told), tuple(sorted(free)))
+    components = tuple(p.component for p in group)
+    return LogCone(least, own, charts, before, _between(least, told), tuple(sorted(free)), components)
 
 
 def _least(system: TransitionSystem, outputs: Sequence[Output]) -> TransitionSystem:

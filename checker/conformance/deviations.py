@@ -1,12 +1,11 @@
-"""Distinct deviations: mismatches grouped by their cause, however often and for however long they occur."""
+"""Distinct deviations: mismatches grouped by what differs and where, in many recordings."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from typing import Literal
 
 from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
-
-Key = tuple[object, ...]
 
 MOST_KEPT = 5_000
 """Mismatches kept until it is known whether several outputs stay together."""
@@ -14,14 +13,49 @@ MOST_KEPT = 5_000
 
 DeviationKind = Literal["value", "late", "frozen", "swapped"]
 
+ScopedOutput = tuple[str, str, str]
+"""An output, what it must be and what it is, in words; both empty where any other value is the same."""
+
+
+@dataclass(frozen=True, order=True)
+class DeviationScope:
+    """What makes a deviation another one than the next, in words that a file can hold.
+
+    ``kind`` is ``late`` where the outputs are never on time; what is late now and then is a ``value``.
+    ``charts``: the transition that the charts took, or the states in which they stayed.
+    """
+
+    kind: DeviationKind
+    part: str
+    differences: tuple[ScopedOutput, ...]
+    charts: tuple[str, ...] = ()
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(name for name, _, _ in self.differences))
+
+    def id(self, board: str) -> str:
+        """A short name that is the same wherever and whenever the deviation is met."""
+        text = repr((board, self.kind, self.part, self.differences, self.charts))
+        return f"{board}-{self.outputs[0]}-{sha256(text.encode()).hexdigest()[:6]}"
+
+
+def scope_of(mismatch: LogMismatch) -> DeviationScope:
+    """That of one piece of a mismatch: numbers that follow from a discrete output are no part of it."""
+    leading = [d for d in mismatch.differences if not d.is_number or d.text] or list(mismatch.differences)
+    return DeviationScope(
+        "value", mismatch.part, tuple(dict.fromkeys(d.key for d in leading)), mismatch.moves
+    )
+
 
 @dataclass(frozen=True)
 class Deviation:
-    """One cause: how it shows, where it was first met, how often.
+    """One difference: how it shows, where it was first met, how often.
 
     ``kind``: ``value``, ``late`` (the value of the tick before), ``frozen`` (several outputs stay while the
-    charts go on) or ``swapped`` (two columns for each other).  ``ticks`` are the first and the last tick,
-    ``count`` the ticks in between that differ, ``times`` how often it began.
+    charts go on) or ``swapped`` (two columns for each other).  ``first`` is its first mismatch and ``last``
+    the last tick, of the recording ``origin``; ``count`` the ticks that differ, ``times`` how often it began
+    and ``runs`` in how many recordings.
     """
 
     kind: DeviationKind
@@ -30,134 +64,253 @@ class Deviation:
     count: int
     times: int
     differences: tuple[LogDifference, ...]
+    scope: DeviationScope
+    runs: int = 1
+    origin: str = ""
 
     @property
     def outputs(self) -> tuple[str, ...]:
         return tuple(dict.fromkeys(d.output.name for d in self.differences))
 
+    def joined(self, other: "Deviation") -> "Deviation":
+        """The same one in two recordings, told where its run is the shortest."""
+        known = {d.key: d for d in (*self.differences, *other.differences)}
+        better = min(self, other, key=lambda d: (d.first.tick, d.origin))
+        return replace(
+            better,
+            kind=_kind(self, other),
+            count=self.count + other.count,
+            times=self.times + other.times,
+            runs=self.runs + other.runs,
+            differences=tuple(known.values()),
+        )
+
+
+def _kind(one: Deviation, other: Deviation) -> DeviationKind:
+    """Late is what is late every time."""
+    return one.kind if one.kind == other.kind else "value"
+
 
 class Grouping:
-    """Groups the mismatches of a log as they come, tick by tick."""
+    """Groups the mismatches of a recording as they come, tick by tick.
 
-    def __init__(self) -> None:
-        self._groups: dict[Key, Deviation] = {}
-        self._late: dict[str, LogMismatch] = {}
-        self._running: dict[str, tuple[int, Key, Key]] = {}
+    ``may_freeze``: whether several outputs that stay at the same time are one deviation, as in a log that is
+    not written on.
+    """
+
+    def __init__(self, may_freeze: bool = True) -> None:
+        self._may_freeze = may_freeze
+        self._groups: dict[DeviationScope, Deviation] = {}
+        self._late: dict[tuple[str, ...], LogMismatch] = {}
+        self._running: dict[tuple[str, ...], tuple[int, object, DeviationScope]] = {}
         self._frozen: list[LogMismatch] = []
 
     def tick(self, tick: int, found: Sequence[LogMismatch], any_output_changed: bool) -> None:
         """The mismatches of a tick; every tick must be given, also those without."""
+        if not found and not self._late and not self._frozen:
+            return
         if any_output_changed:
             self._thaw()
-        by_part = {m.part: m for m in found}
-        for part in [p for p in self._late if p not in by_part]:
+        pieces = {(m.part, *map(str, _names(m))): m for one in found for m in one.pieces()}
+        for part in [p for p in self._late if p not in pieces]:
             waited = self._late.pop(part)
             if any_output_changed:
-                self._add(waited, "late")
+                self._add(part, waited, "late")
             else:  # the charts are back at the value that stays
-                self._settle(waited)
-        for mismatch in found:
-            self._one(mismatch)
+                self._settle(part, waited)
+        for part, piece in pieces.items():
+            self._one(part, piece)
 
     def end(self) -> tuple[Deviation, ...]:
         """All deviations, in the order of their first ticks."""
-        for mismatch in self._late.values():
-            self._settle(mismatch)
+        for part, mismatch in self._late.items():
+            self._settle(part, mismatch)
         self._late.clear()
         self._thaw()
         return tuple(sorted(self._groups.values(), key=lambda d: (d.first.tick, d.first.part)))
 
-    def _one(self, mismatch: LogMismatch) -> None:
-        waiting = self._late.pop(mismatch.part, None)
+    def _one(self, part: tuple[str, ...], mismatch: LogMismatch) -> None:
+        waiting = self._late.pop(part, None)
         if waiting is not None and mismatch.late:
-            self._add(waiting, "late")
+            self._add(part, waiting, "late")
         elif waiting is not None:
-            self._settle(waiting)
+            self._settle(part, waiting)
         if mismatch.late:
-            self._late[mismatch.part] = mismatch
+            self._late[part] = mismatch
         else:
-            self._settle(mismatch)
+            self._settle(part, mismatch)
 
-    def _settle(self, mismatch: LogMismatch) -> None:
+    def _settle(self, part: tuple[str, ...], mismatch: LogMismatch) -> None:
         """Not late: either one of several outputs that stay, or a wrong value."""
-        if mismatch.stuck:
+        if mismatch.stuck and self._may_freeze:
             self._frozen.append(mismatch)
             if len(self._frozen) > MOST_KEPT:
                 self._thaw()
         else:
-            self._add(mismatch, "value")
+            self._add(part, mismatch, "value")
 
     def _thaw(self) -> None:
         """An output changes again: what stayed until now did so together, or alone."""
         stayed, self._frozen = self._frozen, []
         if len({m.part for m in stayed}) < 2:
             for mismatch in stayed:
-                self._add(mismatch, "value")
+                self._add((mismatch.part, *_names(mismatch)), mismatch, "value")
             return
         stayed.sort(key=lambda m: m.tick)
         every = {d.key: d for m in stayed for d in m.differences}
         ticks = {m.tick for m in stayed}
-        key = ("frozen", *sorted({d.output.name for d in every.values()}))
+        outputs = sorted({d.output.name for d in every.values()})
+        scope = DeviationScope("frozen", "", tuple((name, "", "") for name in outputs))
         first = replace(stayed[0], part="")
-        self._join(key, Deviation("frozen", first, max(ticks), len(ticks), 1, tuple(every.values())))
+        self._join(Deviation("frozen", first, max(ticks), len(ticks), 1, tuple(every.values()), scope))
 
-    def _add(self, mismatch: LogMismatch, kind: DeviationKind) -> None:
+    def _add(self, part: tuple[str, ...], mismatch: LogMismatch, kind: DeviationKind) -> None:
         """A series of one value for another is one deviation, whatever the charts do meanwhile."""
-        last, pairs, key = self._running.get(mismatch.part, (0, (), ()))
+        last, pairs, scope = self._running.get(part, (0, (), None))
         goes_on = kind == "value" and last == mismatch.tick - 1 and pairs == mismatch.key
-        if not goes_on:
-            shape = mismatch.outputs if kind == "late" else mismatch.key
-            key = (kind, mismatch.part, shape, mismatch.moves)
+        if scope is None or not goes_on:
+            scope = scope_of(mismatch)
         if kind == "value":
-            self._running[mismatch.part] = (mismatch.tick, mismatch.key, key)
+            self._running[part] = (mismatch.tick, mismatch.key, scope)
         times = 0 if goes_on else 1
-        self._join(key, Deviation(kind, mismatch, mismatch.tick, 1, times, mismatch.differences))
+        self._join(Deviation(kind, mismatch, mismatch.tick, 1, times, mismatch.differences, scope))
 
-    def _join(self, key: Key, new: Deviation) -> None:
-        old = self._groups.get(key)
+    def _join(self, new: Deviation) -> None:
+        old = self._groups.get(new.scope)
         if old is None:
-            self._groups[key] = replace(new, times=max(new.times, 1))
+            self._groups[new.scope] = replace(new, times=max(new.times, 1))
             return
-        self._groups[key] = replace(
-            old, last=max(old.last, new.last), count=old.count + new.count, times=old.times + new.times
+        first = new.first if new.first.tick < old.first.tick else old.first
+        self._groups[new.scope] = replace(
+            old,
+            kind=_kind(old, new),
+            first=first,
+            last=max(old.last, new.last),
+            count=old.count + new.count,
+            times=old.times + new.times,
         )
 
 
-# --- what only the whole log shows --------------------------------------------------------------
+def _names(mismatch: LogMismatch) -> list[str]:
+    """The outputs of a piece, with the bit of a mask."""
+    return [f"{d.output.name} {d.bit or ''}" for d in mismatch.differences if not d.is_number] or list(
+        mismatch.outputs
+    )
 
 
-def always_late(found: Sequence[Deviation], on_time: Iterable[str]) -> Iterator[Deviation]:
+# --- what only the whole of a recording, or of many, shows -----------------------------------------
+
+
+@dataclass(frozen=True)
+class WholeEvidence:
+    """What is known of outputs over whole recordings.
+
+    ``on_time``: those that changed when they had to, at least once.  ``swapped``: pairs that always hold
+    what is required of the other one, and not always their own; ``alike``: pairs of
+    which nothing says that they are not.
+    """
+
+    on_time: frozenset[str] = frozenset()
+    swapped: frozenset[tuple[str, str]] = frozenset()
+    alike: frozenset[tuple[str, str]] = frozenset()
+
+    def joined(self, other: "WholeEvidence") -> "WholeEvidence":
+        """That of both."""
+        alike = self.alike & other.alike
+        return WholeEvidence(self.on_time | other.on_time, (self.swapped | other.swapped) & alike, alike)
+
+
+@dataclass
+class DeviationTally:
+    """The deviations of one recording, or of many of one implementation, each once.
+
+    Recordings of other boards, or of other parts of it, go into a tally of their own.
+    """
+
+    evidence: WholeEvidence | None = None
+    groups: dict[DeviationScope, Deviation] = field(default_factory=dict)
+
+    def add(self, found: Iterable[Deviation], evidence: WholeEvidence, origin: str = "") -> None:
+        """Those of one more recording, before anything is concluded from the whole of it."""
+        self.evidence = evidence if self.evidence is None else self.evidence.joined(evidence)
+        for one in found:
+            named = replace(one, origin=one.origin or origin)
+            old = self.groups.get(one.scope)
+            self.groups[one.scope] = named if old is None else old.joined(named)
+
+    def deviations(self) -> tuple[Deviation, ...]:
+        """All of them, what explains most first: in most recordings, then in most ticks."""
+        evidence = self.evidence or WholeEvidence()
+        plain = tuple(without_ambiguous(tuple(self.groups.values())))
+        found = tuple(swapped(tuple(always_late(plain, evidence.on_time)), evidence.swapped))
+        return tuple(sorted(found, key=lambda d: (-d.runs, -d.count, d.first.tick, d.scope)))
+
+
+def without_ambiguous(found: Sequence[Deviation]) -> Iterator[Deviation]:
+    """What may be after several moves of the charts joins the same difference after one of them, if any."""
+    groups = {one.scope: one for one in found if not _ambiguous(one)}
+    for one in filter(_ambiguous, found):
+        same = [
+            d for s, d in groups.items() if (s.part, s.differences) == (one.scope.part, one.scope.differences)
+        ]
+        nearest = max(same, key=lambda d: (d.runs, d.count, d.scope), default=one)
+        if nearest is one:
+            groups[one.scope] = one
+        else:
+            joined = replace(nearest, count=nearest.count + one.count, times=nearest.times + one.times)
+            groups[nearest.scope] = joined
+    yield from groups.values()
+
+
+def _ambiguous(one: Deviation) -> bool:
+    return any(d.ambiguous for d in one.first.differences)
+
+
+def always_late(found: Iterable[Deviation], on_time: Iterable[str]) -> Iterator[Deviation]:
     """One deviation in place of many where an output was never on time."""
     punctual = set(on_time)
     late: dict[tuple[str, ...], list[Deviation]] = {}
     for one in found:
         if one.kind == "late" and not punctual & set(one.outputs):
-            late.setdefault((one.first.part,), []).append(one)
+            late.setdefault((one.first.part, *one.scope.outputs), []).append(one)
         else:
             yield one
-    for group in late.values():
-        yield _merged(group, "late")
+    for (part, *outputs), group in late.items():
+        yield _merged(group, DeviationScope("late", part, tuple((name, "", "") for name in outputs)))
 
 
 def swapped(found: Sequence[Deviation], pairs: Iterable[tuple[str, str]]) -> Iterator[Deviation]:
     """One deviation in place of those of two columns that were swapped."""
     rest = list(found)
-    for pair in pairs:
+    for pair in sorted(pairs):
         own = [d for d in rest if set(d.outputs) <= set(pair)]
         if own:
             rest = [d for d in rest if d not in own]
-            yield _merged(own, "swapped")
+            yield _merged(own, DeviationScope("swapped", "", tuple((name, "", "") for name in sorted(pair))))
     yield from rest
 
 
-def _merged(group: Sequence[Deviation], kind: DeviationKind) -> Deviation:
-    first = min(group, key=lambda d: d.first.tick)
+def _merged(group: Sequence[Deviation], scope: DeviationScope) -> Deviation:
+    first = min(group, key=lambda d: (d.first.tick, d.origin))
     every = {d.key: d for one in group for d in one.differences}
     return replace(
         first,
-        kind=kind,
+        kind=scope.kind,
         last=max(d.last for d in group),
         count=sum(d.count for d in group),
         times=sum(d.times for d in group),
+        runs=max(d.runs for d in group),
         differences=tuple(every.values()),
+        scope=scope,
     )
+
+
+__all__ = [
+    "Deviation",
+    "DeviationKind",
+    "DeviationScope",
+    "DeviationTally",
+    "Grouping",
+    "WholeEvidence",
+    "scope_of",
+]

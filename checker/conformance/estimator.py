@@ -2,10 +2,9 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from rovercheck.checker.conformance.cones import LogCone
-from rovercheck.checker.conformance.program import Known, NeededInputs
+from rovercheck.checker.conformance.program import BeliefOutcome, Known, NeededInputs
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.spec_model.lang.domain import Num
 
@@ -19,15 +18,6 @@ MOST_REMEMBERED = 50_000
 
 NEARLY = 1e-6
 """How far numbers may lie apart for the rounding of a 32-bit float, in parts of their size or in units."""
-
-
-@dataclass(frozen=True)
-class BeliefOutcome:
-    """What a step may lead to: the states before and after it, and the outputs it requires."""
-
-    before: Known
-    after: Known
-    outputs: Known
 
 
 class TooMany(Exception):
@@ -53,7 +43,7 @@ class StateEstimator:
         """The state before the first tick."""
         return (tuple(v.init for v in self.cone.system.variables),)
 
-    def anything(self, told: Mapping[str, Raw]) -> tuple[Known, ...]:
+    def anything(self, told: Mapping[str, Raw | None]) -> tuple[Known, ...]:
         """Every state in which these variables have these values."""
         return (tuple(told.get(name) for name in self._state),)
 

@@ -1,17 +1,22 @@
 """Is a recording a run of the charts?  Its parts are followed; what differs is grouped by cause."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import permutations
 
-from rovercheck.checker.conformance.cones import LogCone
-from rovercheck.checker.conformance.deviations import Deviation, Grouping, always_late, swapped
-from rovercheck.checker.conformance.estimator import differs
-from rovercheck.checker.conformance.mismatch import LogMismatch
+from rovercheck.checker.conformance.cones import LogCone, measured
+from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, Grouping, WholeEvidence
+from rovercheck.checker.conformance.estimator import MOST_REMEMBERED, differs
+from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
+from rovercheck.checker.conformance.program import BeliefOutcome
 from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 
 Column = Sequence[Raw | None]
+
+
+Situation = tuple[str, str, tuple[str, ...], Raw | None]
+"""A part, an output, what the charts that decide it did, and what they required of it (not of a number)."""
 
 
 @dataclass(frozen=True)
@@ -28,10 +33,17 @@ class Behaviour:
     compared: tuple[str, ...]
     left_out: tuple[str, ...]
     inferred: tuple[str, ...]
+    tally: DeviationTally = field(default_factory=DeviationTally)
+    """The deviations before anything was concluded from the whole of the recording."""
+    situations: frozenset[Situation] = frozenset()
+    """What the recording put to the test and was as required, if that was asked for."""
 
 
 class BoardFollower:
-    """Follows all parts of a board through a log."""
+    """Follows all parts of a board through a recording.
+
+    ``watched``: whether what is put to the test is told; ``may_freeze``: see ``Grouping``.
+    """
 
     def __init__(
         self,
@@ -39,7 +51,14 @@ class BoardFollower:
         tolerance: Mapping[str, float],
         seen: frozenset[str],
         from_power_up: bool,
+        *,
+        watched: bool = False,
+        may_freeze: bool = True,
     ) -> None:
+        self.heard: Callable[[Sequence[LogMismatch]], None] | None = None
+        """Is told the mismatches of each row that has some."""
+        self._met: dict[int, tuple[Tracker, BeliefOutcome]] | None = {} if watched else None
+        self._situations: set[Situation] = set()
         self._trackers = [Tracker(cone, tolerance, from_power_up) for cone in parts]
         self._outputs = {o.var.name: o.name for cone in parts for o in cone.outputs}
         self._known = seen | set(self._outputs)
@@ -47,7 +66,7 @@ class BoardFollower:
             o.var.name: (o.var.init if from_power_up else None,) for cone in parts for o in cone.outputs
         }
         self._previous: tuple[Raw | None, ...] = ()
-        self._grouping = Grouping()
+        self._grouping = Grouping(may_freeze)
         self._changes = _OnTime()
         self._swaps = _Swaps(parts)
 
@@ -79,34 +98,73 @@ class BoardFollower:
             self._before = dict.fromkeys(self._before, (None,))
         now: dict[str, tuple[Raw | None, ...]] = {}
         found: list[LogMismatch] = []
+        meaningless = {name: texts[i] for name, texts in block.meaningless.items() if i in texts}
         for tracker, fetch in zip(self._trackers, fetches, strict=True):
             inputs = fetch.inputs(i, self._before, now)
             logged = tuple([c[i] for c in fetch.outputs])
             before = tracker.required
             mismatch = tracker.step(TrackedRow(tick, block.lines[i], missing, inputs, logged))
             self._changes.note(tracker, before, mismatch)
+            if self._met is not None and tracker.exact is not None:
+                self._met[id(tracker.exact)] = tracker, tracker.exact
+            if meaningless and (wrong := _meaningless(tracker, meaningless)):
+                others = mismatch.differences if mismatch is not None else ()
+                inputs_read = tracker.inputs(TrackedRow(tick, block.lines[i], missing, inputs, logged))
+                mismatch = LogMismatch(
+                    tick, block.lines[i], tracker.cone.name, (*wrong, *others), inputs_read
+                )
             if mismatch is not None:
                 found.append(mismatch)
-                now |= {d.output.var.name: (d.logged, *d.expected) for d in mismatch.differences}
+                now |= {d.output.var.name: _either(d) for d in mismatch.differences}
+        if found and self.heard is not None:
+            self.heard(found)
         self._swaps.note(self._trackers, fetches, i, bool(found))
         self._grouping.tick(tick, found, outputs != self._previous)
         self._previous = outputs
+        if self._met is not None and len(self._met) > MOST_REMEMBERED:
+            self._note_met()
         self._before = {name: now.get(name) or (column[i],) for name, column in columns.items()}
 
     def end(self) -> Behaviour:
         """What was found in all."""
-        found: Iterable[Deviation] = self._grouping.end()
-        found = always_late(tuple(found), self._changes.on_time)
-        found = swapped(tuple(found), self._swaps.pairs())
+        self._note_met()
+        evidence = WholeEvidence(frozenset(self._changes.on_time), *self._swaps.evidence())
+        tally = DeviationTally()
+        tally.add(self._grouping.end(), evidence)
         undecided = tuple(t.undecided for t in self._trackers if t.undecided is not None)
         read = {v.name for t in self._trackers for v in t.cone.system.inputs}
         return Behaviour(
-            tuple(sorted(found, key=lambda d: d.first.tick)),
+            tuple(sorted(tally.deviations(), key=lambda d: d.first.tick)),
             tuple(sorted(undecided, key=lambda u: u.tick)),
             tuple(self._outputs.values()),
             tuple(name for t in self._trackers for name in t.cone.left_out),
             tuple(sorted(read - self._known)),
+            tally,
+            frozenset(self._situations),
         )
+
+    def _note_met(self) -> None:
+        """What was put to the test and was as required, in words."""
+        for tracker, outcome in (self._met or {}).values():
+            for i, output in enumerate(tracker.cone.outputs):
+                required = None if measured(output) else outcome.outputs[i]
+                moves = tracker.differences.moves(i, [outcome])
+                self._situations.add((tracker.cone.name, output.name, moves, required))
+        if self._met is not None:
+            self._met.clear()
+
+
+def _meaningless(tracker: Tracker, texts: Mapping[str, str]) -> list[LogDifference]:
+    """The outputs of a part, by name, that were given as what is no value."""
+    given = [o for o in tracker.cone.outputs if o.name in texts]
+    return [tracker.differences.meaningless(o.var.name, texts[o.name], tracker.exact) for o in given]
+
+
+def _either(difference: LogDifference) -> tuple[Raw | None, ...]:
+    """What those that read an output may have read: what it is, or what it must be."""
+    if difference.logged is None:
+        return difference.expected or (None,)
+    return difference.logged, *difference.expected
 
 
 @dataclass(frozen=True)
@@ -169,5 +227,7 @@ class _Swaps:
             elif deviates and got[a] != due[a] and None not in (got[a], got[b], due[a], due[b]):
                 self._wrong.add((a, b))
 
-    def pairs(self) -> Iterator[tuple[str, str]]:
-        yield from sorted(self._alive & self._wrong)
+    def evidence(self) -> tuple[frozenset[tuple[str, str]], frozenset[tuple[str, str]]]:
+        """Pairs that are swapped, and those that may be."""
+        alive = frozenset(self._alive)
+        return alive & self._wrong, alive

@@ -32,6 +32,15 @@ class NeededInputs(Exception):
 
 
 @dataclass(frozen=True)
+class BeliefOutcome:
+    """What a step may lead to: the states before and after it, and the outputs it requires."""
+
+    before: Known
+    after: Known
+    outputs: Known
+
+
+@dataclass(frozen=True)
 class ProgramOutput:
     """A variable whose value after the step is asked for, unless a condition holds then."""
 

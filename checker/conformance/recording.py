@@ -1,7 +1,7 @@
 """Rows of a recorded run, whoever recorded it: a log, or an implementation beside the charts."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 Raw = int | Fraction
@@ -15,13 +15,15 @@ Cells = list[Raw | None]
 class LogBlock:
     """Successive rows: the line and the step of each, from 1, and its values by signal.
 
-    ``missing[i]`` steps lie between row i and the one before it.
+    ``missing[i]`` steps lie between row i and the one before it.  ``meaningless``: by output, the rows in
+    which it was given but is no value, with its text; its cell there is ``None``.
     """
 
     lines: Sequence[int]
     ticks: Sequence[int]
     missing: Sequence[int]
     values: Mapping[str, Cells]
+    meaningless: Mapping[str, Mapping[int, str]] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.lines)

@@ -5,16 +5,16 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.cones import LogCone, measured
 from rovercheck.checker.conformance.estimator import (
     FIRST_RUNS,
     MORE_RUNS,
-    BeliefOutcome,
+    MOST_REMEMBERED,
     StateEstimator,
     TooMany,
 )
-from rovercheck.checker.conformance.mismatch import LogMismatch, differences, moves, shown
-from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.conformance.mismatch import Differences, LogMismatch, shown
+from rovercheck.checker.conformance.program import BeliefOutcome, Known
 from rovercheck.checker.conformance.recording import Raw
 
 MOST_LOST = 20
@@ -58,12 +58,16 @@ class Tracker:
         self.undecided: UndecidedRow | None = None
         self.given_up = False
         self._follow = StateEstimator(cone, tolerance)
+        self.differences = Differences(cone)
+        self.exact: BeliefOutcome | None = None
+        """The step that the charts took from a state and inputs that are known, if they were."""
         self._now = self._follow.power_up() if from_power_up else self._follow.anything({})
         self._own: tuple[Known, ...] | None = self._now if from_power_up else None
         self._lost = False
         self._times_lost = 0
-        self._last: dict[str, Raw] = {}
+        self._last: dict[str, Raw | None] = {}
         self._told = [o.var.name for o in cone.outputs]
+        self._numbers = [measured(o) for o in cone.outputs]
         self.required: tuple[Raw | None, ...] = (
             tuple(o.var.init for o in cone.outputs) if from_power_up else ()
         )
@@ -74,6 +78,10 @@ class Tracker:
         if self.given_up:
             return None
         self._follow.runs_left = min(self._follow.runs_left, FIRST_RUNS) + MORE_RUNS
+        self.exact = None
+        if self._exactly(row):
+            self._last = dict(zip(self._told, row.logged, strict=True))
+            return None
         try:
             return self._step(row)
         except TooMany as reason:
@@ -83,17 +91,48 @@ class Tracker:
             logged = zip(self._told, row.logged, strict=True)
             self._last = {name: value for name, value in logged if value is not None}
 
+    def _exactly(self, row: TrackedRow) -> bool:
+        """Take the step by itself where state and inputs are known, and it explains the row."""
+        if len(self._now) != 1 or self._own is not self._now or self._lost or row.missing:
+            return False
+        if any(len(options) != 1 for options in row.inputs):
+            return False
+        key = self._now[0], tuple([options[0] for options in row.inputs])
+        outcome = self.cone.remembered.get(key)
+        if outcome is None:
+            if None in key[0] or None in key[1]:
+                return False
+            if len(self.cone.remembered) >= MOST_REMEMBERED:
+                self.cone.remembered.clear()
+            outcome = self.cone.remembered[key] = BeliefOutcome(key[0], *self.cone.step(*key))
+        if not self._follow.explains(outcome, row.logged):
+            return False
+        self._now = self._own = (outcome.after,)
+        self.required, self.exact = outcome.outputs, outcome
+        return True
+
     def _step(self, row: TrackedRow) -> LogMismatch | None:
         if row.missing:
             self._skip(row.missing)
         found, fits = self._fitting(self._now, row)
         fits = fits or self._from_own(row)
-        if not fits and self._lost:
+        if not fits and self._lost and not self._only_numbers(row):
             _, fits = self._fitting(self._follow.anything(self._last), row)
         if not fits:
-            return self._differs(row, found)
+            return self._differs(row, self._fitting(self._now, row)[0] if self._lost else found)
         self._goes_on(row, fits)
         return None
+
+    def _only_numbers(self, row: TrackedRow) -> bool:
+        """Whether the charts' own run differs in numbers alone: its state is then not in question."""
+        if self._own is None or all(self._numbers):
+            return False
+        found, _ = self._fitting(self._own, row)
+        at = self._nearest(found, row.logged)[1]
+        if not all(self._numbers[i] for i in at):
+            return False
+        self._now = self._own
+        return True
 
     def _fitting(
         self, valuations: Sequence[Known], row: TrackedRow
@@ -137,13 +176,10 @@ class Tracker:
             self._now, self._own = self._follow.anything(self._outputs(row)), None
             return None
         best, at = self._nearest(found, row.logged)
-        before = self.required
-        late = bool(before) and all(row.logged[i] == before[i] for i in at)
-        stuck = all(self._last.get(self._told[i]) == row.logged[i] for i in at)
+        last = tuple(self._last.get(name) for name in self._told)
+        wrong = self.differences.told(best, row.logged, at, self.required, last)
         self._stay(row, best)
-        told = moves(self.cone, best)
-        wrong = differences(self.cone, best, row.logged, at)
-        return LogMismatch(row.tick, row.line, self.cone.name, wrong, told, self._inputs(row), late, stuck)
+        return LogMismatch(row.tick, row.line, self.cone.name, wrong, self.inputs(row))
 
     def _nearest(
         self, found: Sequence[BeliefOutcome], logged: Known
@@ -164,7 +200,8 @@ class Tracker:
         else:
             self._own_goes_on(row)
 
-    def _inputs(self, row: TrackedRow) -> dict[str, str]:
+    def inputs(self, row: TrackedRow) -> dict[str, str]:
+        """What the part read, as a person writes it."""
         rows = zip(self.cone.system.inputs, row.inputs, strict=True)
         return {v.name: "not logged" if given[0] is None else shown(v.domain, given[0]) for v, given in rows}
 
@@ -190,7 +227,19 @@ class Tracker:
         self._follow.runs_left = left
 
     def _lose(self, row: TrackedRow, what: str) -> None:
-        self._undecided(row, f"too many states; what multiplies them: {what}")
+        """What explains the row is not known: the charts go on by themselves if they can."""
+        because = f"too many states; what multiplies them: {what}"
+        if self._own is not None and len(self._own) == 1 and all(len(given) == 1 for given in row.inputs):
+            self._follow.runs_left = max(self._follow.runs_left, MOST_OPTIONS)
+            try:
+                self._own_goes_on(row)
+            except TooMany:
+                self._own = None
+            if self._own is not None:
+                self._now, self._lost = self._own, True
+                self._note_undecided(row, because)
+                return
+        self._undecided(row, because)
         self._now, self._own, self._lost, self.required = (
             self._follow.anything(self._outputs(row)),
             None,
@@ -201,6 +250,9 @@ class Tracker:
     def _undecided(self, row: TrackedRow, because: str) -> None:
         self._times_lost += 1
         self.given_up = self._times_lost >= MOST_LOST
+        self._note_undecided(row, because)
+
+    def _note_undecided(self, row: TrackedRow, because: str) -> None:
         if self.undecided is None:
             self.undecided = UndecidedRow(row.tick, self.cone.name, because)
 

@@ -74,15 +74,22 @@ def as_on_record(verdict: LogVerdict) -> bool:
     return not violated if isinstance(verdict.prop.form, Reachable) else violated
 
 
-def examine(path: Path, how: ColumnMap, system: str = "", against: LogReference | None = None) -> LogResult:
+def examine(
+    path: Path,
+    how: ColumnMap,
+    system: str = "",
+    against: LogReference | None = None,
+    watched: bool = False,
+) -> LogResult:
     """Check one log, against the charts as specified unless told otherwise.
 
-    Raises ``LogError`` for a file that is no log of the board, or not up to its end.
+    ``watched``: whether its behaviour says what was put to the test.  Raises ``LogError`` for a file that
+    is no log of the board, or not up to its end.
     """
     log = open_log(path, how, system)
     with closing(log.blocks()) as blocks:
         first = next(blocks)
-        run = _Run(log, against or as_drawn())
+        run = _Run(log, against or as_drawn(), watched)
         run.block(first)
         for block in blocks:
             run.block(block)
@@ -92,7 +99,7 @@ def examine(path: Path, how: ColumnMap, system: str = "", against: LogReference 
 class _Run:
     """A log on its way through both checks."""
 
-    def __init__(self, log: Log, against: LogReference) -> None:
+    def __init__(self, log: Log, against: LogReference, watched: bool) -> None:
         self._log, self._against = log, against
         layout, from_power_up = log.layout, log.start == "power-up"
         vocabulary = against.vocabulary(layout.board)
@@ -102,7 +109,7 @@ class _Run:
         self._choice = against.choice(layout.board, known)
         self._monitors = LogMonitors(vocabulary, self._choice, known, from_power_up)
         parts = against.cones(layout.board, seen, logged)
-        self._follow = BoardFollower(parts, _tolerance(layout), seen, from_power_up)
+        self._follow = BoardFollower(parts, _tolerance(layout), seen, from_power_up, watched=watched)
         self._rows = self._ticks = self._missing = 0
         self._gaps: list[Gap] = []
 

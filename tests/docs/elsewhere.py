@@ -52,6 +52,9 @@ COMMANDS = {
     "rovercheck compare --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
     "rovercheck compare --system board1 --interpret S43=AND": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:FOLDER": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl python:mine.py:Board1 --known known.toml": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:FOLDER --write-known known.toml": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:FOLDER --known known.toml": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
     "rovercheck accept --from decisions.json": Instead(

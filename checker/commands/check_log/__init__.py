@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.known import known_options
 from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
 
 
@@ -17,6 +18,8 @@ class LogOptions:
     system: str | None = None
     as_json: bool = False
     verbose: bool = False
+    known: Path | None = None
+    write_known: Path | None = None
 
 
 @click.command(short_help="Check logs recorded on a board.")
@@ -33,6 +36,7 @@ class LogOptions:
 )
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
+@known_options
 @changing
 @quietly
 @gathered(LogOptions, "options")

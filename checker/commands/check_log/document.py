@@ -6,9 +6,12 @@ from typing import Annotated, Literal, NotRequired
 from annotated_types import Ge, MinLen
 from typing_extensions import TypedDict
 
+from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.known import KnownRow, known_rows
 from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
+from rovercheck.checker.conformance.known import FoundWord, Judged
 from rovercheck.checker.io.document import Count, Ordinal
 from rovercheck.checker.logs import LogResult, as_on_record
 from rovercheck.checker.logs.invalid import InvalidCell
@@ -66,6 +69,13 @@ class LoggedDifference(TypedDict):
 class DeviationRow(TypedDict):
     """Outputs that are not as the charts require, with where they first are."""
 
+    id: str
+    """Its name in a file of known deviations."""
+    known: FoundWord
+    part: str
+    """The part of the board in which it arises; of several, and of swapped columns, empty."""
+    decided_by: str
+    """The charts that decide the outputs."""
     kind: DeviationKind
     outputs: list[str]
     first_tick: Ordinal
@@ -127,6 +137,25 @@ class UnusableRow(TypedDict):
     """There if it is a fault of rovercheck."""
 
 
+class CampaignDeviation(TypedDict):
+    """A deviation over all logs of a board."""
+
+    id: str
+    known: FoundWord
+    system: str
+    part: str
+    decided_by: str
+    kind: DeviationKind
+    outputs: list[str]
+    charts: list[str]
+    logs: Ordinal
+    """In how many logs."""
+    ticks: Ordinal
+    first_log: str
+    """The log in which it is met after the fewest ticks."""
+    first_tick: Ordinal
+
+
 class LogHead(TypedDict):
     """What every such document begins with."""
 
@@ -138,39 +167,81 @@ class LogHead(TypedDict):
 class LogDocument(LogRow, LogHead):
     """What ``rovercheck check-log FILE --json`` prints."""
 
+    known: list[KnownRow]
+    """The known deviations of the board that were named."""
+
 
 class FolderDocument(LogHead):
     """What ``rovercheck check-log FOLDER --json`` prints."""
 
     logs: Annotated[list[LogRow | UnusableRow], MinLen(1)]
+    deviations: list[CampaignDeviation]
+    """Each once over all logs, of each board what explains most first."""
+    known: list[KnownRow]
 
 
 CheckLogDocument = LogDocument | FolderDocument
 """What ``rovercheck check-log --json`` prints: of a log what was found in it, of a folder that of each."""
 
 
-def log_document(found: LogResult, charts: str, code: Exit) -> LogDocument:
+def log_document(found: LogResult, charts: str, code: Exit, campaign: LogCampaign) -> LogDocument:
     """All of a log; ``charts``: how the charts differ from those specified, in words."""
-    return {"schema": "rovercheck/conform/1", "exit": code, **_log(found, charts)}
+    return {
+        "schema": "rovercheck/conform/1",
+        "exit": code,
+        **_log(found, charts, campaign),
+        "known": _known(campaign),
+    }
 
 
-def folder_document(found: Mapping[str, Outcome], charts: str, code: Exit) -> FolderDocument:
+def folder_document(
+    found: Mapping[str, Outcome], charts: str, code: Exit, campaign: LogCampaign
+) -> FolderDocument:
     """All of a folder: what came of each log, by its name."""
-    rows = [_entry(name, outcome, charts) for name, outcome in found.items()]
-    return {"schema": "rovercheck/conform/1", "exit": code, "logs": rows}
+    return {
+        "schema": "rovercheck/conform/1",
+        "exit": code,
+        "logs": [_entry(name, outcome, charts, campaign) for name, outcome in found.items()],
+        "deviations": [
+            _over_all(board, one, campaign) for board, every in campaign.deviations.items() for one in every
+        ],
+        "known": _known(campaign),
+    }
 
 
-def _entry(name: str, found: Outcome, charts: str) -> LogRow | UnusableRow:
+def _known(campaign: LogCampaign) -> list[KnownRow]:
+    return [row for judgement in campaign.judgements.values() for row in known_rows(judgement)]
+
+
+def _over_all(board: str, one: Deviation, campaign: LogCampaign) -> CampaignDeviation:
+    judged = campaign.judgements[board].of(one)
+    return {
+        "id": judged.id,
+        "known": judged.word,
+        "system": board,
+        "part": one.scope.part,
+        "decided_by": one.first.decided_by,
+        "kind": one.kind,
+        "outputs": list(one.outputs),
+        "charts": list(one.scope.charts),
+        "logs": one.runs,
+        "ticks": one.count,
+        "first_log": one.origin,
+        "first_tick": one.first.tick,
+    }
+
+
+def _entry(name: str, found: Outcome, charts: str, campaign: LogCampaign) -> LogRow | UnusableRow:
     match found:
         case LogResult():
-            return _log(found, charts)
+            return _log(found, charts, campaign)
         case LogFault(message):
             return {"log": name, "error": message, "internal": True}
         case _:
             return {"log": name, "error": str(found)}
 
 
-def _log(found: LogResult, charts: str) -> LogRow:
+def _log(found: LogResult, charts: str, campaign: LogCampaign) -> LogRow:
     return {
         "log": found.name,
         "system": found.layout.board,
@@ -188,7 +259,7 @@ def _log(found: LogResult, charts: str) -> LogRow:
         "properties": [_verdict(v) for v in found.verdicts],
         "not_monitorable": {o.property.id: list(o.missing) for o in found.choice.missing},
         "not_for_logs": {o.property.id: o.because for o in found.choice.untold},
-        "deviations": [_deviation(d) for d in found.behaviour.deviations],
+        "deviations": [_deviation(d, campaign.of(found, d)) for d in found.behaviour.deviations],
         "unknown": [
             {"part": u.part, "from_tick": u.tick, "because": u.because} for u in found.behaviour.undecided
         ],
@@ -227,8 +298,12 @@ def _verdict(verdict: LogVerdict) -> LogVerdictRow:
     return row
 
 
-def _deviation(one: Deviation) -> DeviationRow:
+def _deviation(one: Deviation, judged: Judged) -> DeviationRow:
     return {
+        "id": judged.id,
+        "known": judged.word,
+        "part": one.scope.part,
+        "decided_by": one.first.decided_by,
         "kind": one.kind,
         "outputs": list(one.outputs),
         "first_tick": one.first.tick,

@@ -1,13 +1,15 @@
 """``rovercheck check-log``: logs checked against the properties and the charts."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rovercheck.checker.commands.check_log import LogOptions
+from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome, page, summary
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import error_message
+from rovercheck.checker.commands.shared.known import KnownBook, known_book
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.compare.variants import varied
@@ -28,10 +30,11 @@ class LogRequest:
     options: LogOptions
     charts: str = ""
     against: LogReference | None = None
+    book: KnownBook = field(default_factory=lambda: KnownBook({}, ""))
 
     def examined(self, path: Path) -> LogResult:
         """What one log says.  Raises ``LogError``."""
-        return examine(path, self.how, self.options.system or "", self.against)
+        return examine(path, self.how, self.options.system or "", self.against, self.book.used)
 
     def outcome(self, path: Path) -> Outcome:
         """What one of many logs says, or why it says nothing, whatever that is: the others are judged."""
@@ -51,7 +54,11 @@ def check_log(place: Path, options: LogOptions, variant: Variant) -> Exit:
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
     against = _against(variant) if variant.name else None
-    asked = LogRequest(_map(options.map_file), options, variant.name, against)
+    book = KnownBook({}, "")
+    if options.known is not None or options.write_known is not None:
+        every = varied(variant.choices, variant.repair)
+        book = known_book(options.known, options.write_known, every, variant.name)
+    asked = LogRequest(_map(options.map_file), options, variant.name, against, book)
     return _folder(place, asked) if place.is_dir() else _log(place, asked)
 
 
@@ -60,14 +67,24 @@ def _log(place: Path, asked: LogRequest) -> Exit:
         found = asked.examined(place)
     except LogError as error:
         raise UsageError(f"{place}: {error}") from error
-    code = _code_of(found)
+    campaign = LogCampaign([found], asked.book)
+    _finish(campaign)
+    code = _code_of(found, campaign)
     if asked.options.as_json:
         from rovercheck.checker.commands.check_log.document import log_document
 
-        print(json_text(log_document(found, asked.charts, code)))
+        print(json_text(log_document(found, asked.charts, code, campaign)))
     else:
-        out.print(page(found, asked.options.verbose, asked.charts), markup=False)
+        out.print(page(found, asked.options.verbose, asked.charts, campaign), markup=False)
     return code
+
+
+def _finish(campaign: LogCampaign) -> None:
+    """Judge the deviations, and write the known ones where that was asked for.  Raises ``UsageError``."""
+    if campaign.logs:
+        campaign.book.concerning(list(campaign.judgements))
+    for said in campaign.book.write():
+        err.print(said, markup=False)
 
 
 def _against(variant: Variant) -> LogReference:
@@ -100,28 +117,30 @@ def _folder(folder: Path, asked: LogRequest) -> Exit:
         for number, log in enumerate(logs, 1):
             line.show(f"{number} of {len(logs)}: {log.name}")
             found[log.name] = asked.outcome(log)
-    code = _code(list(found.values()))
+    campaign = LogCampaign([one for one in found.values() if isinstance(one, LogResult)], asked.book)
+    _finish(campaign)
+    code = _code(list(found.values()), campaign)
     if asked.options.as_json:
         from rovercheck.checker.commands.check_log.document import folder_document
 
-        print(json_text(folder_document(found, asked.charts, code)))
+        print(json_text(folder_document(found, asked.charts, code, campaign)))
     else:
-        out.print(summary(found, asked.charts), markup=False)
+        out.print(summary(found, asked.charts, campaign), markup=False)
     return code
 
 
-def _code(found: Sequence[Outcome]) -> Exit:
+def _code(found: Sequence[Outcome], campaign: LogCampaign) -> Exit:
     """The gravest code of all logs."""
-    codes = set(map(_code_of, found))
+    codes = {_code_of(one, campaign) for one in found}
     return next((code for code in GRAVEST if code in codes), Exit.AS_EXPECTED)
 
 
-def _code_of(found: Outcome) -> Exit:
+def _code_of(found: Outcome, campaign: LogCampaign) -> Exit:
     match found:
         case LogFault():
             return Exit.INTERNAL
         case LogError():
             return Exit.USAGE
-    if found.deviates or found.invalid:
+    if found.unexpected or campaign.unknown(found) or found.invalid:
         return Exit.FAILED
     return Exit.INCONCLUSIVE if found.behaviour.undecided else Exit.AS_EXPECTED

@@ -5,6 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import fill, shorten
 
+from rovercheck.checker.commands.check_log.campaign import LogCampaign
+from rovercheck.checker.commands.shared.deviation_text import headline
+from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.io.printable import one_line
@@ -34,13 +37,14 @@ Outcome = LogResult | LogError | LogFault
 """What came of one of many logs."""
 
 
-def page(found: LogResult, verbose: bool, charts: str = "") -> str:
+def page(found: LogResult, verbose: bool, charts: str = "", campaign: LogCampaign | None = None) -> str:
     """All about one log; ``charts``: how the charts differ from those specified, in words."""
     parts = (
         _head(found, charts, verbose),
         _cells(found.invalid),
         _properties(found, verbose),
-        _behaviour(found),
+        _behaviour(found, campaign),
+        _known(campaign),
     )
     return "\n\n".join(text for part in parts if (text := "\n".join(part)))
 
@@ -158,7 +162,7 @@ def _unmonitored(found: LogResult, verbose: bool) -> Iterator[str]:
 # --- behaviour -------------------------------------------------------------------------------------
 
 
-def _behaviour(found: LogResult) -> Iterator[str]:
+def _behaviour(found: LogResult, campaign: LogCampaign | None) -> Iterator[str]:
     behaviour = found.behaviour
     compared = counted(len(behaviour.compared), "output", "outputs")
     if behaviour.deviations:
@@ -169,7 +173,8 @@ def _behaviour(found: LogResult) -> Iterator[str]:
     else:
         yield f"Behaviour: a run of the charts, of {compared} compared."
     for place, one in enumerate(behaviour.deviations, 1):
-        yield from _deviation(place, one)
+        judged = campaign.of(found, one) if campaign is not None and campaign.book.used else None
+        yield from _deviation(place, one, f" ({mark(judged.word, judged.id)})" if judged else "")
     if behaviour.left_out:
         names = ", ".join(behaviour.left_out)
         yield _lines("not compared", f"{names}: computed from inputs that are not logged", hang=18)
@@ -177,10 +182,10 @@ def _behaviour(found: LogResult) -> Iterator[str]:
         yield _lines("?", f"{open_.part}: unknown from tick {open_.tick} on: {open_.because}", hang=5)
 
 
-def _deviation(number: int, one: Deviation) -> Iterator[str]:
+def _deviation(number: int, one: Deviation, known: str) -> Iterator[str]:
     kind = f" {KINDS[one.kind]}" if KINDS[one.kind] else ""
     yield fill(
-        f"{', '.join(one.outputs)}{kind}",
+        f"{', '.join(one.outputs)}{kind}{known}",
         text_width(),
         initial_indent=f"{number:>3}. ",
         subsequent_indent="     ",
@@ -193,6 +198,8 @@ def _deviation(number: int, one: Deviation) -> Iterator[str]:
     if len(one.differences) > MOST_PAIRS:
         yield _lines("", f"and {len(one.differences) - MOST_PAIRS} more pairs of values", hang=14)
     if one.kind in ("value", "late"):
+        if one.first.decided_by not in ("", *one.outputs):
+            yield _lines("part", one.first.decided_by, indent=5, hang=14)
         if one.first.moves:
             yield _lines("charts", "; ".join(one.first.moves), indent=5, hang=14)
         inputs = ", ".join(f"{name} = {value}" for name, value in one.first.inputs.items())
@@ -211,8 +218,8 @@ def _when(one: Deviation) -> str:
 # --- many logs -------------------------------------------------------------------------------------
 
 
-def summary(found: Mapping[str, Outcome], charts: str = "") -> str:
-    """A line for each log, then what is wrong with those that could not be read."""
+def summary(found: Mapping[str, Outcome], charts: str = "", campaign: LogCampaign | None = None) -> str:
+    """A line for each log, what is wrong with those that could not be read, then the deviations of all."""
     found = {one_line(name): one for name, one in found.items()}
     width = min(max(map(len, found)), 24)
     rows: list[tuple[str, ...]] = [
@@ -228,7 +235,38 @@ def summary(found: Mapping[str, Outcome], charts: str = "") -> str:
         elif isinstance(one, LogFault):
             lines.append(_lines("", f"{name}: not judged: {one.message}", indent=0, hang=0))
     head = [_lines("charts", charts, indent=0, hang=8)] if charts else []
-    return "\n".join([*head, *lines, "", _total(list(found.values()))])
+    over_all = [line for part in (_over_all(campaign), _known(campaign)) for line in part]
+    between = [""] if over_all else []
+    return "\n".join([*head, *lines, *between, *over_all, "", _total(list(found.values()))])
+
+
+def _over_all(campaign: LogCampaign | None) -> Iterator[str]:
+    """Each deviation once, what explains most first."""
+    if campaign is None or not any(campaign.deviations.values()):
+        return
+    yield "Deviations over all logs:"
+    number = 0
+    for board, found in campaign.deviations.items():
+        of_board = sum(log.layout.board == board for log in campaign.logs)
+        for one in found:
+            number += 1
+            judged = campaign.judgements[board].of(one)
+            known = f" ({mark(judged.word, judged.id)})" if campaign.book.used else ""
+            yield _lines(f"{number}.", f"{board}, {headline(one)}{known}", indent=2, hang=6)
+            when = (
+                f"in {one.runs} of {counted(of_board, 'log', 'logs')}, {counted(one.count, 'tick', 'ticks')}"
+            )
+            first = f"first in tick {one.first.tick} of {one_line(one.origin)}"
+            yield _lines("", f"{when}; {first}", hang=6)
+            for move in one.scope.charts:
+                yield _lines("", move, hang=8)
+
+
+def _known(campaign: LogCampaign | None) -> Iterator[str]:
+    """What came of known deviations, besides being there."""
+    for judgement in campaign.judgements.values() if campaign is not None else ():
+        for line in known_lines(judgement):
+            yield _lines("", line, indent=0, hang=0)
 
 
 def _row(name: str, one: LogResult, width: int) -> tuple[str, ...]:

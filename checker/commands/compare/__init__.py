@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.known import known_options
 from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
 
 
@@ -21,6 +22,8 @@ class ComparisonOptions:
     tests: Path | None
     mismatches: int
     failures: int
+    known: Path | None = None
+    write_known: Path | None = None
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")
@@ -40,7 +43,7 @@ class ComparisonOptions:
     default=5,
     show_default=True,
     metavar="N",
-    help="Distinct mismatches reported with inputs and a test; the others in a line each.",
+    help="Distinct deviations told with a small run and a test; the others without.",
 )
 @click.option(
     "--failures",
@@ -58,6 +61,7 @@ class ComparisonOptions:
     metavar="DIR",
     help="Write a test for each of these mismatches there, not here.",
 )
+@known_options
 @changing
 @quietly
 @gathered(ComparisonOptions, "options")
@@ -78,5 +82,7 @@ def compare(options: ComparisonOptions, as_json: bool, output: Path | None, char
         allowed,
         charts.chosen,
         charts.repair,
+        options.known,
+        options.write_known,
     )
     return run(asked, output, as_json)

@@ -7,13 +7,15 @@ from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.compare.text import CrosscheckReport, shown
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.known import KnownRow, known_rows
 from rovercheck.checker.compare.beside import StepMismatch
-from rovercheck.checker.compare.coverage import taken
 from rovercheck.checker.compare.result import CompareResult, Failure
+from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
+from rovercheck.checker.conformance.known import FoundWord
 from rovercheck.checker.io.document import Count, Ordinal, Text
 from rovercheck.spec_model.abstraction import Value
 
-CompareWord = Literal["mismatch", "failure", "conforms", "inconclusive"]
+CompareWord = Literal["mismatch", "failure", "known", "conforms", "inconclusive"]
 
 
 class TransitionsRow(TypedDict):
@@ -52,19 +54,41 @@ class DifferingOutput(TypedDict):
 
 
 class MismatchRow(TypedDict):
-    """The step of a run in which the implementation differs."""
+    """A deviation, and a run in whose last step it is met."""
 
+    id: str
+    """Its name in a file of known deviations."""
+    known: FoundWord
+    part: str
+    """The part of the board in which it arises."""
+    decided_by: str
+    """The charts that decide the outputs."""
+    kind: DeviationKind
+    runs: Ordinal
+    """In how many runs it was met."""
+    ticks: Ordinal
+    """In how many steps of all runs."""
     step: Ordinal
     origin: str
     """The run that led to it."""
     small: bool
     """Whether the run was made as small as it can be made."""
+    earlier: Count
+    """Steps before in which other outputs than required are given, too."""
     inputs: dict[str, Value]
     differences: list[DifferingOutput]
     arrows: list[str]
-    """The transitions that the charts took in the step."""
+    """What the charts that decide the outputs did in the step: transitions, or the states kept."""
     test: str
     """The test that was written for it, if any."""
+
+
+class UndecidedRuns(TypedDict):
+    """A part of the board that was not wholly decided after a deviation."""
+
+    part: str
+    because: str
+    runs: Ordinal
 
 
 class FailureRow(TypedDict):
@@ -96,10 +120,13 @@ class ComparedRow(TypedDict):
     """Outputs that the implementation never gave."""
     tried: list[StageRow]
     compared: Count
-    """The steps in which the implementation was compared: a run ends at its first mismatch."""
+    """The steps in which the implementation was compared: those that it answered."""
     distinct: Count
     mismatches: list[MismatchRow]
     failures: list[FailureRow]
+    undecided: list[UndecidedRuns]
+    known: list[KnownRow]
+    """The known deviations of the board that were named."""
 
 
 class CompareDocument(TypedDict):
@@ -129,7 +156,7 @@ def _row(of: CrosscheckReport) -> ComparedRow:
         "system": result.board.name,
         "implementation": of.address,
         "charts": of.charts or "as specified",
-        "verdict": _word(result),
+        "verdict": _word(of, result),
         "steps": result.coverage.steps,
         "runs": result.coverage.runs,
         "examples": result.examples,
@@ -142,10 +169,13 @@ def _row(of: CrosscheckReport) -> ComparedRow:
         ],
         "compared": result.compared,
         "distinct": len(result.mismatches),
-        "mismatches": [
-            _mismatch(m, _file_of(m, of), number < result.small) for number, m in enumerate(result.mismatches)
-        ],
+        "mismatches": [_mismatch(m, m.deviation, of) for m in result.mismatches if m.deviation is not None],
         "failures": [_failure(f, _file_of(f, of)) for f in result.failures],
+        "undecided": [
+            {"part": part, "because": because, "runs": runs}
+            for (part, because), runs in result.undecided.items()
+        ],
+        "known": known_rows(of.judgement),
     }
 
 
@@ -156,8 +186,10 @@ def _file_of(found: StepMismatch | Failure, of: CrosscheckReport) -> str:
     )
 
 
-def _word(result: CompareResult) -> CompareWord:
-    if result.mismatches:
+def _word(of: CrosscheckReport, result: CompareResult) -> CompareWord:
+    if result.mismatches and not of.differs:
+        return "known" if of.as_expected else "inconclusive"
+    if of.differs and result.mismatches:
         return "mismatch"
     return "failure" if result.failures else "conforms" if result.conforms else "inconclusive"
 
@@ -172,17 +204,27 @@ def _failure(failure: Failure, file: str) -> FailureRow:
     }
 
 
-def _mismatch(mismatch: StepMismatch, file: str, small: bool) -> MismatchRow:
+def _mismatch(mismatch: StepMismatch, deviation: Deviation, of: CrosscheckReport) -> MismatchRow:
+    judged = of.judgement.of(deviation)
+    met = of.result.met.get(deviation.scope, deviation)
     return {
+        "id": judged.id,
+        "known": judged.word,
+        "part": deviation.scope.part,
+        "decided_by": deviation.first.decided_by,
+        "kind": deviation.kind,
+        "runs": met.runs,
+        "ticks": met.count,
         "step": mismatch.tick,
         "origin": mismatch.origin,
-        "small": small,
+        "small": mismatch.small,
+        "earlier": mismatch.earlier,
         "inputs": dict(mismatch.steps[-1].inputs),
         "differences": [
             {"output": d.name, "expected": d.expected, "actual": d.actual} for d in mismatch.differences
         ],
-        "arrows": [str(taken(fired)) for fired in mismatch.transitions],
-        "test": file,
+        "arrows": list(deviation.first.moves),
+        "test": _file_of(mismatch, of),
     }
 
 

@@ -9,6 +9,7 @@ from rovercheck.checker.adapters import start
 from rovercheck.checker.adapters.implementation import ImplementationError
 from rovercheck.checker.commands.compare.text import CrosscheckReport, report, shown
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.known import KnownBook, known_book
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import whole
@@ -18,6 +19,7 @@ from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
 from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.variants import varied
+from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
@@ -37,6 +39,8 @@ class CrosscheckOptions:
     allowance: Allowance = ALLOWED
     chosen: tuple[str, ...] = ()
     repair: str | None = None
+    known: Path | None = None
+    write_known: Path | None = None
 
     @cached_property
     def variant(self) -> Variant:
@@ -45,31 +49,46 @@ class CrosscheckOptions:
 
 
 def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
-    """Compare one board, or both, and write a test for every mismatch and failure that is shown.
+    """Compare one board, or both, and write a test for every mismatch and failure that is shown in full.
 
     Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
     """
     named = _boards(asked)
+    every = varied(asked.variant.choices, asked.variant.repair)
+    book = known_book(asked.known, asked.write_known, every, asked.variant.name)
+    book.concerning([board.name for board in named])
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
     reports: list[CrosscheckReport] = []
     for board in named:
         address = asked.address or board.supervisor
         if not as_json:
             _announce(asked, board, address, seed)
-        result = _checked(asked, board, address, seed)
+        result = _checked(asked, board, address, seed, book.used)
         files = _write_tests(result, address, asked.variant, output or Path())
-        reports.append(CrosscheckReport(result, address, files, asked.variant.name))
+        judgement = _judged(book, result)
+        reports.append(CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used))
         if not as_json:
             out.print(report(reports[-1]), markup=False)
         if result.interrupted:
             err.print(f"Interrupted: {counted(len(reports), 'board', 'boards')} of {len(named)} begun.")
             break
+    for said in book.write():
+        err.print(said, markup=False)
     code = worst(reports)
     if as_json:
         from rovercheck.checker.commands.compare.document import document
 
         print(json_text(document(reports, code), ascii=True))
     return code
+
+
+def _judged(book: KnownBook, result: CompareResult) -> KnownJudgement:
+    compared = {o.name for o in result.board.outputs} - set(result.uncompared)
+
+    def shown_by(known: KnownDeviation) -> bool:
+        return result.complete and shows(result.board, known.scope, result.situations, compared)
+
+    return book.judged(result.board.name, result.deviations, shown_by)
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:
@@ -96,7 +115,7 @@ def _boards(asked: CrosscheckOptions) -> list[Board]:
     return [known[asked.system]]
 
 
-def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> CompareResult:
+def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int, watched: bool) -> CompareResult:
     if asked.tests is not None and not asked.tests.is_dir():
         raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
     try:
@@ -112,6 +131,7 @@ def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int) ->
                 folder=asked.tests,
                 allowance=asked.allowance,
                 progress=lambda search: line.show(_doing(board, search)),
+                watched=watched,
             )
     finally:
         implementation.close()
@@ -120,7 +140,7 @@ def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int) ->
 def _doing(board: Board, search: CompareSearch) -> str:
     """One line on what a cross-check is doing."""
     of = f" {search.tried[RANDOM]} of {search.effort.examples}" if search.doing == RANDOM else ""
-    found = counted(len(search.found), "mismatch", "mismatches")
+    found = counted(len(search.tally.groups), "deviation", "deviations")
     return (
         f"{board.name}: {search.doing}{of} | {found}, {search.coverage.steps:,} steps, "
         f"{len(search.coverage.taken)} transitions"
@@ -144,9 +164,9 @@ def _write_tests(result: CompareResult, address: str, variant: Variant, folder: 
 
 
 def worst(reports: Sequence[CrosscheckReport]) -> Exit:
-    """What differs outweighs a search that is not finished."""
-    if any(r.result.differs for r in reports):
+    """What differs, and is not known, outweighs a search that is not finished."""
+    if any(r.differs for r in reports):
         return Exit.FAILED
     if any(r.result.interrupted for r in reports):
         return Exit.INTERRUPTED
-    return Exit.AS_EXPECTED if all(r.result.conforms for r in reports) else Exit.INCONCLUSIVE
+    return Exit.AS_EXPECTED if all(r.as_expected for r in reports) else Exit.INCONCLUSIVE

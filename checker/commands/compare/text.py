@@ -1,19 +1,23 @@
 """The report of a cross-check, for people in 80 columns and for machines."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 
 from rovercheck.checker.board_tests.rows import in_rows
+from rovercheck.checker.commands.shared.deviation_text import headline
+from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
-from rovercheck.checker.compare.beside import StepMismatch, SteppedCharts, author_of
+from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.coverage import taken
 from rovercheck.checker.compare.reproduce import script_of
 from rovercheck.checker.compare.result import CompareResult, CompareStage, Failure
 from rovercheck.checker.compare.smaller import columns
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.known import KnownJudgement
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -30,6 +34,28 @@ class CrosscheckReport:
     files: Sequence[Path] = ()
     charts: str = ""
     """How the charts differ from those specified, in words."""
+    judgement: KnownJudgement = field(default_factory=lambda: KnownJudgement({}))
+    with_known: bool = False
+    """Whether known deviations were named, or are to be written."""
+
+    @property
+    def differs(self) -> bool:
+        """Whether the implementation does something else than the charts that is not known."""
+        unknown = self.judgement.unknown if self.judgement.found else len(self.result.mismatches)
+        return bool(unknown or self.result.failures)
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether nothing but the known differs in every run that was asked for, and all was decided."""
+        result = self.result
+        return result.conclusive and not self.differs and not (result.mismatches and result.undecided)
+
+
+def often(deviation: Deviation, result: CompareResult) -> str:
+    """How often it was met, and where first: there its run is the shortest."""
+    runs = f"{deviation.runs:,} of {counted(result.coverage.runs, 'run', 'runs')}"
+    steps = counted(deviation.count, "step", "steps")
+    return f"in {runs}, {steps}; first in step {deviation.first.tick} of {deviation.origin}"
 
 
 def report(of: CrosscheckReport) -> str:
@@ -37,14 +63,15 @@ def report(of: CrosscheckReport) -> str:
     result = of.result
     lines = [*map(_wrapped, result.notes)]
     for number, found in enumerate(shown(result), 1):
-        told = _mismatch(number, found) if isinstance(found, StepMismatch) else _failure(number, found)
+        told = _mismatch(number, found, of) if isinstance(found, StepMismatch) else _failure(number, found)
         lines += ["", *told, *_test(of.files, number)]
     for failure in result.failures:
         if not failure.steps:
             lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
     if others := result.mismatches[result.small :]:
-        lines += ["", *(_wrapped(f"✗ {_in_short(one)}") for one in others)]
-    return "\n".join([*lines, *([""] if lines else []), *_summary(result)])
+        for number, one in enumerate(others, result.small + 1):
+            lines += ["", *_in_short(number, one, of)]
+    return "\n".join([*lines, *([""] if lines else []), *_summary(of)])
 
 
 def shown(result: CompareResult) -> Sequence[StepMismatch | Failure]:
@@ -66,29 +93,47 @@ def _wrapped(text: str, indent: str = "") -> str:
     return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
 
 
-def _in_short(mismatch: StepMismatch) -> str:
-    """A mismatch in a line: which output differs, where, after which transition of its chart."""
-    first = mismatch.differences[0].name
-    fired = [f for f in mismatch.steps[-1].fired if f.chart == author_of(mismatch.board, first)]
-    transition = f"; {taken(fired[-1])}" if fired else ""
-    return f"{mismatch.board.name}, step {mismatch.tick} of {mismatch.origin}: {first} differs{transition}"
+def _in_short(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
+    """A mismatch without its inputs: what differs, how often, what the charts do there."""
+    deviation = mismatch.deviation
+    assert deviation is not None, "what a search found"
+    yield _wrapped(f"✗ {number}. {mismatch.board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
+    yield _wrapped(f"{often(deviation, of.result)}", "   ")
+    for move in deviation.scope.charts:
+        yield _wrapped(move, "     ")
+
+
+def _mark(mismatch: StepMismatch, of: CrosscheckReport) -> str:
+    if not of.with_known or mismatch.deviation is None:
+        return ""
+    judged = of.judgement.of(mismatch.deviation)
+    return f" ({mark(judged.word, judged.id)})"
 
 
 # --- a mismatch ---------------------------------------------------------------------------------------
 
 
-def _mismatch(number: int, mismatch: StepMismatch) -> Iterator[str]:
-    board = mismatch.board
-    first = mismatch.differences[0].name
+def _mismatch(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
+    board, deviation = mismatch.board, mismatch.deviation
+    assert deviation is not None, "what a search found"
+    yield _wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
+    yield _wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
     time = f"{mismatch.tick * TICK_MS / 1000:g} s"
-    yield _wrapped(f"✗ {number}. {board.name}, step {mismatch.tick} = {time}: {first} differs.")
+    run = "a small run" if mismatch.small else "that run"
+    before = f"; other parts differ before, in {counted(mismatch.earlier, 'step', 'steps')}"
+    yield _wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
     yield from _inputs(mismatch)
     signals = {o.name: o.signal for o in board.outputs}
     yield f"   {'output':<26}{'charts':<24}implementation"
     for d in mismatch.differences:
         actual = "missing" if d.actual is None else signals[d.name].show(d.actual)
         yield f"   {d.name:<26}{signals[d.name].show(d.expected):<24}{actual}"
-    yield from _transitions(mismatch, author_of(board, first))
+    yield from _moves(mismatch, deviation)
+
+
+def _met(deviation: Deviation, result: CompareResult) -> Deviation:
+    """The same one as it was met in the runs, not in the small one."""
+    return result.met.get(deviation.scope, deviation)
 
 
 def _failure(number: int, failure: Failure) -> Iterator[str]:
@@ -147,34 +192,26 @@ def _shown(signal: BoardSignal, value: Value | None) -> str:
     return signal.show(_known(value))
 
 
-def _transitions(mismatch: StepMismatch, author: str) -> Iterator[str]:
-    """The transition that decides the output; where none was taken, the states in which its chart stays."""
-    fired = [f for f in mismatch.steps[-1].fired if f.chart == author]
-    if fired:
-        yield "   the charts took"
-        for one in fired:
-            yield _wrapped(str(taken(one)), "     ")
+def _moves(mismatch: StepMismatch, deviation: Deviation) -> Iterator[str]:
+    """What the charts that decide the outputs do in that step, and before it where nothing else differs."""
+    moves = deviation.first.moves
+    if moves:
+        yield "   the charts:"
+        yield from (_wrapped(move, "     ") for move in moves)
     else:
-        yield _wrapped(
-            f"the charts took no transition of {author} in that step{_states(mismatch, author)}", "   "
-        )
+        yield _wrapped(f"{deviation.first.decided_by} is decided by no state of a chart.", "   ")
+    if mismatch.earlier:
+        return
+    charts = {f.chart for step in mismatch.steps for f in step.fired if _moved(f.chart, moves)}
     for back in range(min(BEFORE, mismatch.tick - 1), 0, -1):
-        earlier = [f for f in mismatch.steps[-1 - back].fired if f.chart == author]
-        for one in earlier:
-            yield _wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
+        for one in mismatch.steps[-1 - back].fired:
+            if one.chart in charts:
+                yield _wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
 
 
-def _states(mismatch: StepMismatch, author: str) -> str:
-    """Where a chart is after the step."""
-    chart = next((c for c in mismatch.board.system.charts if c.name == author), None)
-    if chart is None:
-        return ": it is a function block."
-    charts = SteppedCharts(mismatch.board)
-    for step in mismatch.steps:
-        charts.step(step.inputs)
-    at = charts.valuation()
-    places = [v.domain.show(at[v.name]) for v in chart.locations if at[v.name]]
-    return f"; it is in {', '.join(places)}." if places else "."
+def _moved(chart: str, moves: Sequence[str]) -> bool:
+    """Whether one of the moves is of a chart: they begin with a place in it."""
+    return any(move.startswith((f"{chart}:", f"{chart}.")) for move in moves)
 
 
 def _test(files: Sequence[Path], number: int) -> Iterator[str]:
@@ -185,16 +222,24 @@ def _test(files: Sequence[Path], number: int) -> Iterator[str]:
 # --- all of it ------------------------------------------------------------------------------------------
 
 
-def _summary(result: CompareResult) -> Iterator[str]:
+def _summary(report: CrosscheckReport) -> Iterator[str]:
+    result = report.result
     cover, (took, of) = result.coverage, result.transitions
     met, sides = cover.boundaries()
     ended = result.compared < cover.steps
-    part = f", {result.compared:,} of them compared, as a run ends where it differs" if ended else ""
+    part = f", {result.compared:,} of them compared, as it did not survive some" if ended else ""
     yield _wrapped(
-        f"{_sign(result)} {result.board.name} {_verdict(result)}: {cover.steps:,} steps in "
+        f"{_sign(report)} {result.board.name} {_verdict(report)}: {cover.steps:,} steps in "
         f"{counted(cover.runs, 'run', 'runs')}{part}; the charts took {took} of {of} transitions, "
         f"and inputs met {met} of {sides} sides of boundaries."
     )
+    for line in known_lines(report.judgement):
+        yield _wrapped(line, "  ")
+    for (name, because), runs in result.undecided.items():
+        in_runs = counted(runs, "run", "runs")
+        yield _wrapped(
+            f"? {name}: after a deviation, not all could be decided in {in_runs}: {because}.", "  "
+        )
     for stage in result.stages:
         if stage.because:
             yield _wrapped(_untried(stage), "  ")
@@ -202,7 +247,7 @@ def _summary(result: CompareResult) -> Iterator[str]:
         yield _wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
     if result.small < len(result.mismatches):
         yield _wrapped(
-            f"Mismatches with inputs and a test: {result.small} of {len(result.mismatches)}; "
+            f"Deviations with a small run and a test: {result.small} of {len(result.mismatches)}; "
             f"all of them with --mismatches {len(result.mismatches)}.", "  "
         )  # fmt: skip
     if result.uncompared:
@@ -218,21 +263,29 @@ def _untried(stage: CompareStage) -> str:
     return f"{stage.kind.capitalize()}: {tried}; {stage.because}."
 
 
-def _sign(result: CompareResult) -> str:
-    return "✗" if result.differs else "✓" if result.conforms else "?"
+def _sign(of: CrosscheckReport) -> str:
+    return "✗" if of.differs else "✓" if of.as_expected else "?"
 
 
-def _verdict(result: CompareResult) -> str:
-    if result.differs:
-        return f"does not conform ({', '.join(_differences(result))})"
+def _verdict(of: CrosscheckReport) -> str:
+    result = of.result
+    if of.differs:
+        return f"does not conform ({', '.join(_differences(of))})"
+    if result.mismatches:
+        known = counted(len(result.mismatches), "known deviation", "known deviations")
+        undecided = "" if of.as_expected else ", but not all could be decided"
+        return f"has {known} and no other{undecided}"
     if result.conforms:
         return "conforms"
     return "is inconclusive (interrupted)" if result.interrupted else "is inconclusive (no output to compare)"
 
 
-def _differences(result: CompareResult) -> Iterator[str]:
+def _differences(of: CrosscheckReport) -> Iterator[str]:
+    result = of.result
     if result.mismatches:
-        yield counted(len(result.mismatches), "mismatch", "mismatches")
+        known = len(result.mismatches) - of.judgement.unknown if of.judgement.found else 0
+        told = f", {known} of them known" if known else ""
+        yield counted(len(result.mismatches), "deviation", "deviations") + told
     if result.failures:
         gave_up = ", then the search gave up" if _given_up(result) else ""
         yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"

@@ -1,0 +1,167 @@
+"""Known deviations of an implementation or of logs, as ``--known`` and ``--write-known`` name them."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import date
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+from typing_extensions import TypedDict
+
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.output import counted, write
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.known import (
+    FoundWord,
+    KnownDeviation,
+    KnownJudgement,
+    RecordWord,
+    judged,
+)
+from rovercheck.checker.conformance.known_file import known_in, known_text
+from rovercheck.spec_model.abstraction import Board
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class KnownRow(TypedDict):
+    """A known deviation of the board, and what came of it."""
+
+    id: str
+    verdict: RecordWord
+    reason: str
+    owner: str
+    until: str
+    """The last day on which it is expected, or never."""
+
+
+def known_options(command: Command) -> Command:
+    """The two options of a verb."""
+    writes = click.option(
+        "--write-known",
+        type=click.Path(dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Write the deviations found there, for --known.",
+    )
+    reads = click.option(
+        "--known",
+        type=click.Path(dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Deviations that are expected, and checked on.",
+    )
+    return reads(writes(command))
+
+
+@dataclass(frozen=True)
+class KnownBook:
+    """The known deviations that were named, and the file to write.
+
+    ``kept`` are those whose reasons are kept in that file: the same, or those already in it.
+    """
+
+    boards: Mapping[str, Board]
+    charts: str
+    known: tuple[KnownDeviation, ...] = ()
+    kept: tuple[KnownDeviation, ...] = ()
+    target: Path | None = None
+    source: Path | None = None
+    written: dict[str, Sequence[KnownDeviation]] = field(default_factory=dict)
+
+    @property
+    def used(self) -> bool:
+        """Whether anything is to be said of known deviations."""
+        return self.source is not None or self.target is not None
+
+    def concerning(self, boards: Iterable[str]) -> None:
+        """Raise ``UsageError`` where nothing that is known is about these boards."""
+        others = sorted({one.board for one in self.known})
+        if self.source is not None and others and not set(others) & set(boards):
+            raise UsageError(
+                f"{self.source} knows deviations of {', '.join(others)} alone, and this is about "
+                f"{', '.join(boards)}; name another --known."
+            )
+
+    def judged(
+        self, board: str, found: Sequence[Deviation], shown_by: Callable[[KnownDeviation], bool]
+    ) -> KnownJudgement:
+        """The deviations of a board beside the known ones; what is to be written of it is noted."""
+        records = [one for one in {r.id: r for r in (*self.kept, *self.known)}.values() if one.board == board]
+        would_show = {one.id: shown_by(one) for one in records}
+        today = date.today()
+        if self.target is not None:
+            self.written[board] = judged(board, found, self.kept, would_show, today).records(board)
+        return judged(board, found, self.known, would_show, today)
+
+    def write(self) -> Iterator[str]:
+        """Write the file that was asked for, and say so.  Raises ``UsageError``."""
+        if self.target is None:
+            return
+        others = [one for one in self.kept if one.board not in self.written]
+        every = [*others, *(one for records in self.written.values() for one in records)]
+        write(known_text(every, self.charts), self.target)
+        yield f"Wrote {counted(len(every), 'known deviation', 'known deviations')} to {self.target}."
+
+
+def known_book(
+    source: Path | None, target: Path | None, boards: Mapping[str, Board], charts: str
+) -> KnownBook:
+    """What is known, before anything is run.
+
+    Raises ``ModelError`` for a file without meaning or of other charts.
+    """
+    known = known_in(source, boards, charts) if source is not None else ()
+    kept = known
+    if source is None and target is not None and target.is_file():
+        kept = known_in(target, boards, charts)
+    return KnownBook(boards, charts, known, kept, target, source)
+
+
+def known_rows(judgement: KnownJudgement) -> list[KnownRow]:
+    """What came of the known deviations, as JSON."""
+    return [
+        {
+            "id": one.id,
+            "verdict": word,
+            "reason": one.reason,
+            "owner": one.owner,
+            "until": one.until.isoformat() if one.until else "never",
+        }
+        for one, word in judgement.known
+    ]
+
+
+NOTES: Mapping[RecordWord, str] = {
+    "gone": "gone: what it is about was put to the test, and was as the charts require; take it out",
+    "not met": "not met: nothing put it to the test",
+}
+
+
+def known_lines(judgement: KnownJudgement) -> Iterator[str]:
+    """Of known deviations what is not as expected, and how many are."""
+    words = [word for _, word in judgement.known]
+    if seen := words.count("seen"):
+        yield f"Known deviations: {seen} of {len(words)} seen."
+    for one, word in judgement.known:
+        if word in NOTES:
+            yield f"Known deviation {one.id} is {NOTES[word]}."
+        elif word == "expired":
+            assert one.until is not None
+            day = one.until.isoformat()
+            yield f"Known deviation {one.id} has expired on {day}: it is not known any more."
+        elif word == "changed":
+            yield f"Known deviation {one.id} has changed: another one was met in its place."
+
+
+def mark(word: FoundWord, id: str) -> str:
+    """What is said of a deviation beside its name, if known ones were named."""
+    told: dict[FoundWord, str] = {
+        "new": "new",
+        "known": f"known as {id}",
+        "expired": f"known as {id}, expired",
+        "changed": f"new shape of {id}",
+    }
+    return told[word]
+
+
+__all__ = ["KnownBook", "KnownRow", "known_book", "known_lines", "known_options", "known_rows", "mark"]
