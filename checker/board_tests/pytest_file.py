@@ -22,11 +22,10 @@ import os
 from contextlib import ExitStack, closing
 from functools import cache
 from math import isclose
-
+{paths}
 import pytest
 from rovercheck.checker.adapters import start
-from rovercheck.spec_model.abstraction import boards
-
+{boards}
 CLOCK, TICK_MS, CLOCK_ENDS = {clock}, {tick_ms}, 2**32
 NEAR = 1e-6  # in the unit, or as a part of the value: single precision will do
 IMPLEMENTATIONS = {{
@@ -83,13 +82,30 @@ def test_outputs(board, name, started):
 '''
 
 
+OF_THE_ROVER = "from rovercheck.spec_model.abstraction import boards\n"
+OF_A_MODEL = """from rovercheck.checker.compare.variants import of_model
+from rovercheck.checker.model.load import load
+
+MODEL = {path}
+
+
+@cache
+def boards():
+    return {{name: of_model(load(MODEL), name) for name in TESTS}}
+
+
+"""
+
+
 def pytest_file(about: Sequence[str], tests: Sequence[BoardTest]) -> str:
     """The text of the file; ``about`` are the paragraphs with which it begins."""
-    of_board = by_board(tests)
+    of_board, model = by_board(tests), tests[0].board.model
     head = HEAD.format(
         about="\n\n".join(textwrap.fill(_quotable(text), WIDTH) for text in about),
         names=" and ".join(f"`{_quotable(b.implementation)}`" for b in of_board),
         only=f" -k {tests[0].board.name}" if len(of_board) > 1 else "",
+        paths="from pathlib import Path\n" if model else "",
+        boards=OF_A_MODEL.format(path=f"Path({_text(model)})") if model else OF_THE_ROVER,
         clock=_text(clock_of(tests[0].board.inputs)),
         tick_ms=tests[0].board.tick_ms,
         implementations="".join(f"    {_text(b.name)}: {_text(b.implementation)},\n" for b in of_board),

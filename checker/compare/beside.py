@@ -8,6 +8,7 @@ from math import isclose
 
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values, run
 from rovercheck.checker.compare.stimulus import Stimulus, StimulusPlayer
+from rovercheck.checker.conformance.cones import written_by
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import NOW
@@ -213,6 +214,6 @@ def _writers(name: str, board: Board) -> Mapping[str, tuple[int, str]]:
     found: dict[str, tuple[int, str]] = {}
     for number, part in enumerate(parts(board.system.components)):
         for output in board.outputs:
-            if output.var.name in part.written:
+            if output.var.name in written_by(part):
                 found[output.name] = (number, part.name)
     return found

@@ -18,11 +18,12 @@ from rovercheck.checker.compare.beside import (
 )
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.fixed_runs import fixed
+from rovercheck.checker.compare.own_runs import covering
 from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
 from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
-from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.compare.strategy import ENVIRONMENTS, environment
 from rovercheck.checker.results.board_test import BoardStep, BoardTest
 from rovercheck.checker.testgen import kept
 from rovercheck.checker.testgen.expected_outputs import under_test
@@ -137,16 +138,14 @@ def cross_check(
     watched: bool = False,
     deviating: Callable[[RecordedRun], None] = lambda run: None,
 ) -> CompareResult:
-    """Compare an implementation with the charts of ``board1`` or ``board2``, or with changed ones.
+    """Compare an implementation with the charts of ``board1`` or ``board2``, changed ones or a model's.
 
     ``effort`` is how many runs are drawn, from which seed; ``folder`` holds further tests; ``allowance``
     says what is spent on mismatches; ``watched``: whether the result says what was put to the test;
     ``deviating`` is given each run in which the implementation differs, to its end.  Of changed charts kept
     runs are inputs only: what they require is computed anew.
     """
-    env = ENVIRONMENTS[board if isinstance(board, str) else board.name]
-    if not isinstance(board, str):
-        env = replace(env, board=board)
+    env = ENVIRONMENTS[board] if isinstance(board, str) else environment(board)
     search = CompareSearch(
         env,
         implementation,
@@ -178,7 +177,7 @@ def recorded_suite(board: str, profile: str = "ci", examples: int | None = None)
 def _known(env: Environment, folder: Path | None) -> Iterable[Run]:
     """The runs that are always tried: those of the project, then those of a folder."""
     name = env.board.name
-    as_drawn = env is ENVIRONMENTS[name]
+    as_drawn = env is ENVIRONMENTS.get(name)
     ours = _of_the_project(name) if as_drawn else known_runs(env)
     return chain(ours, tests(folder, env.board) if folder else ())
 
@@ -213,8 +212,11 @@ def _of_the_project(board: str) -> RunCache:
 
 def known_runs(env: Environment) -> Iterator[Run]:
     """What is tried before anything random: counterexamples, covering tests, then the fixed runs."""
-    yield from counterexamples(env.board)
-    yield from _covering(env.board)
+    if env.board.model:
+        yield from covering(env)
+    else:
+        yield from counterexamples(env.board)
+        yield from _covering(env.board)
     for label, stimulus in fixed(env):
         yield label, played(env.board, env.fields, stimulus)
 

@@ -31,9 +31,9 @@ LONGEST = 1500
 
 
 def environment(board: Board) -> Environment:
-    """The environment of a board of the rover, also with changed charts; of any other what suits all."""
-    known = ENVIRONMENTS.get(board.name)
-    if known is not None and known.board.interface is board.interface:
+    """The environment of a board of the rover, also with changed charts; of a model what suits any charts."""
+    if not board.model:
+        known = ENVIRONMENTS[board.name]
         return known if known.board is board else replace(known, board=board)
     return Environment(board, themes={"anything": ([], (disturb, disturb, flicker, wait, rest))})
 
@@ -46,7 +46,8 @@ def openings(draw: st.DrawFn, env: Environment) -> tuple[int, Blocks]:
     if kind == "silent":
         return env.board.tick_ms, [InputBlock(draw(steps(env))), calm]
     if kind == "some":
-        stamps = draw(st.lists(st.sampled_from(env.values.stamps), unique=True))
+        known = env.values.stamps
+        stamps = draw(st.lists(st.sampled_from(known), unique=True)) if known else []
         first = (*draw(changes(env)), *((stamp, draw(st.sampled_from(env.lags))) for stamp in stamps))
         return env.board.tick_ms, [InputBlock(draw(short()), first), InputBlock(draw(short())), calm]
     if kind == "wrap":  # every stamp is new in the first step, or it would be as old as the clock

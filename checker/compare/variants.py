@@ -1,11 +1,14 @@
-"""Boards whose charts are changed: other interpretations of the document, a proposed repair."""
+"""Boards whose charts are changed: other interpretations, a proposed repair, or a model of one's own."""
 
 from collections.abc import Mapping
 from dataclasses import replace
 
+from rovercheck.checker.model import Model
 from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.abstraction.of_system import board_of
 from rovercheck.spec_model.ambiguity import ANY, fixed
-from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.system import charts_of, in_order
 from rovercheck.spec_model.repairs import Repair, repaired
 
 
@@ -25,3 +28,22 @@ def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[
         return found
     fixing = fixed(choices)
     return {n: replace(b, system=fixing.system(repaired(b.system, repair))) for n, b in found.items()}
+
+
+def of_model(model: Model, name: str | None = None) -> Board:
+    """A system of a model, or one of its charts alone, as a board; without a name its only system.
+
+    Raises ``ModelError`` for an unknown name, none where there are several systems, and a system that no
+    implementation can be executed beside.
+    """
+    if name is None and len(model.systems) != 1:
+        some = ", ".join(model.systems)
+        raise ModelError(f"{model.name} has {len(model.systems)} systems: {some}; name one with --system.")
+    name = name or next(iter(model.systems))
+    charts = charts_of(model.systems)
+    if name not in model.systems and name not in charts:
+        known = [*model.systems, *charts]
+        raise ModelError(f"{model.name} has no system and no chart {name!r}. {did_you_mean(name, known)}")
+    system = model.systems.get(name) or in_order(name, charts[name], text=charts[name].text)
+    assert model.path is not None, "a model of one's own is read from somewhere"
+    return board_of(system, str(model.path.absolute()))

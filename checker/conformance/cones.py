@@ -40,7 +40,7 @@ class LogPart:
 
     @property
     def writes(self) -> frozenset[str]:
-        return frozenset(self.component.written)
+        return written_by(self.component)
 
     @property
     def whole(self) -> Component:
@@ -112,6 +112,12 @@ def _representatives(var: Var, roots: Sequence[Expr]) -> tuple[tuple[int, ...], 
     values = var.domain.values
     some = {*values[:SOME], *values[:: max(1, len(values) // SOME)], values[-1]}
     return tuple(sorted(some)), False
+
+
+def written_by(component: Chart | Block) -> frozenset[str]:
+    """What a component determines: data that it writes, and of a chart which states are active."""
+    places = component.locations if isinstance(component, Chart) else ()
+    return frozenset(component.written).union(v.name for v in places)
 
 
 def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[LogCone, ...]:

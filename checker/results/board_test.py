@@ -36,7 +36,7 @@ class BoardUnderTest:
     """The signals of a board, one of the inputs its clock.
 
     ``implementation`` is the one that is run unless another is named, ``KIND:WHAT``.  Steps are ``tick_ms``
-    apart.
+    apart.  ``model`` is the file or folder of the user's own model that it is of.
     """
 
     name: str
@@ -44,6 +44,7 @@ class BoardUnderTest:
     outputs: tuple[StepSignal, ...]
     implementation: str = ""
     tick_ms: int = TICK_MS
+    model: str = ""
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ def under_test(board: Board) -> BoardUnderTest:
     """A board as its firmware has it."""
     outputs = tuple(_signal(o.signal) for o in board.outputs)
     inputs = tuple(map(_signal, board.inputs))
-    return BoardUnderTest(board.name, inputs, outputs, board.supervisor, board.tick_ms)
+    return BoardUnderTest(board.name, inputs, outputs, board.supervisor, board.tick_ms, board.model)
 
 
 def _signal(signal: BoardSignal) -> StepSignal:

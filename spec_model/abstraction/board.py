@@ -20,7 +20,7 @@ class Board:
 
     The inputs of ``system`` are what ``interface`` carries.  ``grid_ms``: all stamps are multiples of it
     after the first step, or 1 if stamps may lie anywhere.  ``supervisor`` is the one of this project,
-    ``KIND:WHAT``, which is run unless another is named.
+    ``KIND:WHAT``, which is run unless another is named; ``model`` the file or folder of a user's own model.
     """
 
     name: str
@@ -28,6 +28,7 @@ class Board:
     interface: BoardInterface
     grid_ms: int
     supervisor: str = ""
+    model: str = ""
 
     @property
     def tick_ms(self) -> int:

@@ -13,11 +13,12 @@ from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import System
 
 
-def board_of(system: System) -> Board:
+def board_of(system: System, model: str = "") -> Board:
     """Signals named as the data of the charts; every datum written, and every active state, is an output.
 
     A number whose domain has gaps is measured: firmware may hold any value from its lowest to its highest.
-    Names lose the prefix before the last dot where that leaves them different.
+    Names lose the prefix before the last dot where that leaves them different.  ``model`` is where the system
+    was read from.
 
     Raises ``ModelError`` for a system with parameters that are still to be chosen, with ticks of unlike
     lengths, or with data of the name of the clock.
@@ -43,7 +44,7 @@ def board_of(system: System) -> Board:
         )
     rows = (clock(), *(_input(var, names[var.name]) for var in inputs))
     made = produced(tuple(Output(discrete(var, names[var.name]), var) for var in outputs))
-    return Board(system.name, system, BoardInterface(rows, made), grid_ms=system.tick_ms)
+    return Board(system.name, system, BoardInterface(rows, made), grid_ms=system.tick_ms, model=model)
 
 
 def _outputs(system: System) -> tuple[Var, ...]:

@@ -1,4 +1,4 @@
-"""Known deviations, for ``compare`` and ``check-log``: expected and checked on, gone, changed, expired; bad files."""
+"""Known deviations of ``compare`` and ``check-log``: expected, gone, changed, expired; bad files."""
 
 import json
 from collections.abc import Iterator, Sequence

@@ -7,7 +7,7 @@ import click
 
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.known import known_options
-from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, modelling, quietly
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,7 @@ class ComparisonOptions:
 )
 @known_options
 @changing
+@modelling
 @quietly
 @gathered(ComparisonOptions, "options")
 def compare(options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions) -> Exit:
@@ -82,6 +83,7 @@ def compare(options: ComparisonOptions, as_json: bool, output: Path | None, char
         allowed,
         charts.chosen,
         charts.repair,
+        charts.model,
         options.known,
         options.write_known,
     )

@@ -18,7 +18,7 @@ from rovercheck.checker.compare import Allowance, CompareResult, cross_check, ef
 from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
 from rovercheck.checker.compare.search import CompareSearch
-from rovercheck.checker.compare.variants import varied
+from rovercheck.checker.compare.variants import of_model, varied
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
@@ -39,13 +39,14 @@ class CrosscheckOptions:
     allowance: Allowance = ALLOWED
     chosen: tuple[str, ...] = ()
     repair: str | None = None
+    model: Path | None = None
     known: Path | None = None
     write_known: Path | None = None
 
     @cached_property
     def variant(self) -> Variant:
         """How the charts are changed.  Raises ``UsageError`` or ``ModelError``."""
-        return pick_variant(self.chosen, self.repair, ())
+        return pick_variant(self.chosen, self.repair, (), self.model)
 
 
 def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
@@ -54,7 +55,8 @@ def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exi
     Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
     """
     named = _boards(asked)
-    every = varied(asked.variant.choices, asked.variant.repair)
+    own = asked.variant.own is not None
+    every = {b.name: b for b in named} if own else varied(asked.variant.choices, asked.variant.repair)
     book = known_book(asked.known, asked.write_known, every, asked.variant.name)
     book.concerning([board.name for board in named])
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
@@ -103,6 +105,13 @@ def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -
 
 
 def _boards(asked: CrosscheckOptions) -> list[Board]:
+    if asked.variant.own is not None:
+        if asked.address is None:
+            raise UsageError(
+                f"{asked.variant.own.name} comes with no implementation; write --impl KIND:WHAT, as in "
+                "--impl c:firmware."
+            )
+        return [of_model(asked.variant.own, asked.system)]
     known = varied(asked.variant.choices, asked.variant.repair)
     if asked.system is None:
         if asked.address is not None:
@@ -125,7 +134,7 @@ def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int, wa
     try:
         with ProgressLine() as line:
             return cross_check(
-                board if asked.variant.name else board.name,
+                board if asked.variant.name or board.model else board.name,
                 implementation,
                 effort(asked.profile, asked.examples, seed),
                 folder=asked.tests,

@@ -15,7 +15,7 @@ from rovercheck.checker.compare.coverage import taken
 from rovercheck.checker.compare.reproduce import script_of
 from rovercheck.checker.compare.result import CompareResult, CompareStage, Failure
 from rovercheck.checker.compare.smaller import columns
-from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownJudgement
 from rovercheck.spec_model.abstraction import BoardSignal, Value
@@ -149,7 +149,7 @@ def _inputs(mismatch: StepMismatch | Failure) -> Iterator[str]:
     """The inputs that are not at rest in the step, and since when; then how the run got there."""
     board = mismatch.board
     run = columns(board, [step.inputs for step in mismatch.steps])
-    resting = ENVIRONMENTS[board.name].calm
+    resting = environment(board).calm
     signals = {s.name: s for s in board.inputs}
     yield "   inputs that are not at rest in that step:"
     told = False
@@ -179,7 +179,7 @@ def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
     """What changes when, from inputs at rest on."""
     board = mismatch.board
     signals = {s.name: s for s in board.inputs}
-    resting, step = ENVIRONMENTS[board.name].calm, 1
+    resting, step = environment(board).calm, 1
     for steps, changes, _ in in_rows(resting, {}, ((moment, {}) for moment in script_of(mismatch))):
         changed = [f"{name} = {_shown(signals[name], value)}" for name, value in changes.items()]
         yield _wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")

@@ -1,0 +1,213 @@
+"""A model of one's own beside an implementation, under stimuli that come from its formulas."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rovercheck import Chart, State, after, flag, in_order, integer, sec, to, var
+from rovercheck.checker.adapters import python
+from rovercheck.checker.adapters.implementation import Implementation
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.compare import cross_check, effort
+from rovercheck.checker.compare.variants import of_model
+from rovercheck.checker.model.load import load
+from rovercheck.spec_model.abstraction.of_system import board_of
+from rovercheck.spec_model.lang.domain import chosen
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import Assumption
+from tests.model_files.files import HEATER
+
+FIRMWARE = """
+class Heater:
+    limit, rest = 22, 250
+
+    def __init__(self):
+        self.state, self.steps = None, 0
+
+    def step(self, given):
+        warm, door = given["temperature"], given["door_open"]
+        self.steps += 1
+        if self.state is None:
+            self.turn("Off")
+        elif self.state == "Off" and warm < 18 and not door:
+            self.turn("On")
+        elif self.state == "On" and (door or warm > self.limit):
+            self.turn("Off")
+        elif self.state == "On" and self.steps >= 500:
+            self.turn("Pause")
+        elif self.state == "Pause" and self.steps >= self.rest:
+            self.turn("Off")
+        return {"heating": self.state == "On", "Heater": ["", "Off", "On", "Pause"].index(self.state)}
+
+    def turn(self, state):
+        self.state, self.steps = state, 0
+
+
+class Hot(Heater):
+    limit = 25
+
+
+class Brief(Heater):
+    rest = 249
+
+
+class HotAndBrief(Heater):
+    limit, rest = 25, 249
+"""
+
+
+@pytest.fixture
+def firmware(tmp_path: Path) -> Path:
+    """A folder with the model that ``init`` writes, and with firmwares of it."""
+    (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
+    (tmp_path / "firmware.py").write_text(FIRMWARE, encoding="utf-8")
+    return tmp_path
+
+
+def running(folder: Path, name: str) -> Implementation:
+    board = of_model(load(folder / "heater.py"))
+    return python.start(f"{folder / 'firmware.py'}:{name}", board, isolated=False)
+
+
+@pytest.mark.parametrize(
+    ("name", "outputs"),
+    [
+        ("Heater", []),
+        ("Hot", [{"heating", "Heater"}]),
+        ("Brief", [{"Heater"}]),
+        ("HotAndBrief", [{"Heater"}, {"heating", "Heater"}]),
+    ],
+)
+def test_each_difference_is_told_once(firmware: Path, name: str, outputs: list[set[str]]) -> None:
+    board = of_model(load(firmware / "heater.py"))
+    result = cross_check(board, running(firmware, name), effort("ci", 0))
+    assert len(result.coverage.taken) == 5 and result.conforms == (not outputs)
+    told = sorted(({d.name for d in one.differences} for one in result.mismatches), key=len)
+    assert told == outputs
+
+
+def test_the_command_writes_a_test_that_runs_the_model(
+    firmware: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(firmware)
+    asked = ["compare", "--model", "heater.py", "--examples", "0"]
+    assert run([*asked, "--impl", "python:firmware.py:Heater"]) is Exit.AS_EXPECTED
+    assert run([*asked, "--impl", "python:firmware.py:Hot"]) is Exit.FAILED
+    assert "Heater is On instead of\n  Off." in capsys.readouterr().out
+    [file] = firmware.glob("crosscheck_Heater_*.py")
+    for name, code in (("Hot", 1), ("Heater", 0)):
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", file.name]
+        given = {"ROVERCHECK_IMPL": f"python:firmware.py:{name}"}
+        monkeypatch.setenv("ROVERCHECK_IMPL", given["ROVERCHECK_IMPL"])
+        assert subprocess.run(command, capture_output=True, check=False).returncode == code
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ((), "comes with no implementation; write --impl"),
+        (("--impl", "python:firmware.py:Heater", "--system", "Heatr"), "Did you mean 'Heater'"),
+        (
+            ("--impl", "python:firmware.py:Heater", "--interpret", "S43=AND"),
+            "--interpret changes the rover's",
+        ),
+    ],
+)
+def test_mistakes(
+    firmware: Path,
+    words: tuple[str, ...],
+    said: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(firmware)
+    assert run(["compare", "--model", "heater.py", *words]) is Exit.USAGE
+    assert said in " ".join(capsys.readouterr().err.split())
+
+
+# --- what a system stands for ------------------------------------------------------------------------
+
+warm = var("sensor.warm", integer(0, 9, "°C"))
+far = var("far", chosen([0, 10, 100]))
+door = flag("left.door"), flag("right.door")
+fan = Chart(
+    "Fan",
+    [
+        State("Still", transitions=[to("Turning", when=(warm > 5) & ~door[0] & ~door[1] & (far > 9))]),
+        State("Turning", transitions=[to("Still", when=after(1 * sec))]),
+    ],
+    default="Still",
+)
+
+
+def test_signals_have_short_names_unless_two_would_have_the_same() -> None:
+    board = board_of(in_order("fan", fan))
+    assert [s.name for s in board.inputs] == ["now_ms", "warm", "left.door", "right.door", "far"]
+    assert [o.name for o in board.outputs] == ["Fan"]
+    by_name = {s.name: s for s in board.inputs}
+    assert by_name["far"].raw(55) == 55, "firmware may hold what lies between the values of the model"
+    with pytest.raises(ModelError, match="outside"):
+        by_name["warm"].raw(10)
+
+
+def test_steps_are_as_long_as_those_of_the_model() -> None:
+    clocked = Clocked()
+    result = cross_check(board_of(in_order("fan", fan, tick_ms=10), "here"), clocked, effort("ci", 0))
+    assert result.conforms and clocked.apart == {10}
+
+
+class Clocked:
+    """Answers what the clock says that the fan does, and notes how far apart its steps are."""
+
+    def __init__(self) -> None:
+        self.apart: set[int] = set()
+
+    def reset(self) -> None:
+        self.now, self.since = None, None
+
+    def step(self, given: object) -> dict[str, int]:
+        at = dict(given)  # type: ignore[call-overload]
+        if self.now is not None:
+            self.apart.add((at["now_ms"] - self.now) % (1 << 32))
+        first, self.now = self.now is None, at["now_ms"]
+        on = at["warm"] > 5 and not at["left.door"] and not at["right.door"] and at["far"] > 9
+        if self.since is not None and (self.now - self.since) % (1 << 32) >= 1000:
+            self.since = None
+        elif self.since is None and on and not first:
+            self.since = self.now
+        return {"Fan": 1 if self.since is None else 2}
+
+    def close(self) -> None: ...
+
+
+def test_what_a_model_takes_not_to_come_is_not_given() -> None:
+    calm = Assumption("CALM", "It is warm only with a door closed.", ~((warm > 5) & door[0] & door[1]))
+    seen = Noting()
+    cross_check(board_of(in_order("fan", fan, assumptions=(calm,)), "here"), seen, effort("ci", 5))
+    assert seen.given and not any(g["warm"] > 5 and g["left.door"] and g["right.door"] for g in seen.given)
+
+
+class Noting:
+    """Has no outputs, and notes what it is given."""
+
+    def __init__(self) -> None:
+        self.given: list[dict[str, float]] = []
+
+    def reset(self) -> None: ...
+
+    def step(self, given: object) -> dict[str, float]:
+        self.given.append(dict(given))  # type: ignore[call-overload]
+        return {}
+
+    def close(self) -> None: ...
+
+
+def test_what_no_implementation_can_be_beside_is_refused() -> None:
+    with pytest.raises(ModelError, match="write a constant"):
+        board_of(in_order("fan", fan, frozen=(far,)))
+    clocked = Chart("C", [State("A", transitions=[to("A", when=flag("now_ms"))])], default="A")
+    with pytest.raises(ModelError, match="the time of the step"):
+        board_of(in_order("c", clocked))
