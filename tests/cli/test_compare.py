@@ -94,13 +94,14 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
     assert len(list(tmp_path.glob("crosscheck_*.py"))) == 1 and [m["test"] for m in found[1:]] == [""] * (
         len(found) - 1
     )
-    assert f"({len(found)} mismatches)" in said
+    assert f"({len(found)} deviations)" in said
     assert (
-        f"Mismatches with inputs and a test: 1 of {len(found)}; all of them with --mismatches {len(found)}."
+        f"Deviations with a small run and a test: 1 of {len(found)}; all of them with --mismatches {len(found)}."
         in said
     )
     for one in found[1:]:
-        assert f"step {one['step']} of {one['origin']}: {one['differences'][0]['output']} differs" in said
+        assert f"first in step {one['step']} of {one['origin']}" in said
+        assert f"{one['decided_by']}: {one['differences'][0]['output']} " in said
     assert compare(*asked, "--mismatches", str(len(found))) is Exit.FAILED
     assert "all of them with" not in " ".join(capsys.readouterr().out.split())
 
@@ -172,7 +173,7 @@ def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str],
     assert compare(*asked, "-o", str(tmp_path)) is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
     assert "charts under S45=IMMEDIATE with relay-without-delay; 0 random runs" in said
-    assert "give_b2_actuation differs" in said
+    assert "board1, Relay: give_b2_actuation is false instead of true" in said
     written = min(tmp_path.glob("crosscheck_board1_*.py"))
     text = " ".join(written.read_text(encoding="utf-8").split())
     assert "those of the charts under S45=IMMEDIATE with relay-without-delay as they were then" in text

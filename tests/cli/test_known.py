@@ -1,4 +1,4 @@
-"""Known deviations of ``compare`` and ``check-log``: expected, gone, changed, expired; bad files."""
+"""Known deviations, for ``compare`` and ``check-log``: expected, gone, changed, expired; bad files."""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -262,10 +262,12 @@ def test_a_file_of_another_board_is_refused(
 
 
 def rows(*wrong: str, at: Sequence[int] = (30,)) -> list[Row]:
+    """A log in which outputs are wrong that no property speaks of, or a status."""
     found = copied(long_log("board1")[:120])
     for place in at:
         for name in wrong:
-            found[place][name] = (int(found[place][name]) + 1) % 3
+            value = found[place][name]
+            found[place][name] = (value + 1) % 3 if isinstance(value, int) else value + 0.125
     return found
 
 
@@ -278,20 +280,20 @@ def test_logs_of_a_folder_have_each_deviation_once_and_know_it(
 ) -> None:
     folder, file = tmp_path / "logs", tmp_path / "known.toml"
     folder.mkdir()
-    written(folder, rows("temp_status"), name="a.csv")
-    written(folder, rows("temp_status", at=(30, 60)), name="b.csv")
+    written(folder, rows("v_user"), name="a.csv")
+    written(folder, rows("v_user", at=(30, 60)), name="b.csv")
     assert check_log(folder, "--write-known", str(file)) is Exit.FAILED
     assert "in 2 of 2 logs" in " ".join(capsys.readouterr().out.split())
     assert check_log(folder, "--known", str(file)) is Exit.AS_EXPECTED
     capsys.readouterr()
     assert check_log(folder / "a.csv", "--known", str(file)) is Exit.AS_EXPECTED
-    assert "known as board1-temp_status-" in capsys.readouterr().out
-    written(folder, rows("batt_status"), name="c.csv")
+    assert "known as board1-v_user-" in capsys.readouterr().out
+    written(folder, rows("omega_user"), name="c.csv")
     assert check_log(folder, "--known", str(file), "--json") is Exit.FAILED
     found = json.loads(capsys.readouterr().out)
     validate(found, published("conform-1"))
     told = {one["outputs"][0]: one["known"] for one in found["deviations"]}
-    assert told == {"temp_status": "known", "batt_status": "new"}
+    assert told == {"v_user": "known", "omega_user": "new"}
     assert {row["verdict"] for row in found["known"]} == {"seen"}
 
 
