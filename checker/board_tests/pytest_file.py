@@ -2,16 +2,16 @@
 
 import json
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from rovercheck.checker.board_tests.rows import Moment, by_board, clock_of, rows, start_ms
-from rovercheck.checker.results.board_test import BoardTest
+from rovercheck.checker.results.board_test import BoardTest, BoardUnderTest
 
 WIDTH = 106
 
 HEAD = '''"""{about}
 
-It runs {names}.  For another:
+It runs {names}:
 
     ROVERCHECK_IMPL=KIND:WHAT pytest THIS_FILE{only}
 
@@ -93,7 +93,6 @@ MODEL = {path}
 def boards():
     return {{name: of_model(load(MODEL), name) for name in TESTS}}
 
-
 """
 
 
@@ -102,7 +101,7 @@ def pytest_file(about: Sequence[str], tests: Sequence[BoardTest]) -> str:
     of_board, model = by_board(tests), tests[0].board.model
     head = HEAD.format(
         about="\n\n".join(textwrap.fill(_quotable(text), WIDTH) for text in about),
-        names=" and ".join(f"`{_quotable(b.implementation)}`" for b in of_board),
+        names=_run_by(of_board),
         only=f" -k {tests[0].board.name}" if len(of_board) > 1 else "",
         paths="from pathlib import Path\n" if model else "",
         boards=OF_A_MODEL.format(path=f"Path({_text(model)})") if model else OF_THE_ROVER,
@@ -115,6 +114,11 @@ def pytest_file(about: Sequence[str], tests: Sequence[BoardTest]) -> str:
         for board, found in of_board.items()
     )
     return head + "".join(shown) + TAIL
+
+
+def _run_by(boards: Iterable[BoardUnderTest]) -> str:
+    named = " and ".join(f"`{_quotable(b.implementation)}`" for b in boards if b.implementation)
+    return f"{named}.  For another" if named else "the implementation that is named"
 
 
 def _test(test: BoardTest) -> str:

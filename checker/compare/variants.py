@@ -47,3 +47,22 @@ def of_model(model: Model, name: str | None = None) -> Board:
     system = model.systems.get(name) or in_order(name, charts[name], text=charts[name].text)
     assert model.path is not None, "a model of one's own is read from somewhere"
     return board_of(system, str(model.path.absolute()))
+
+
+def boards_of_model(model: Model, name: str | None = None) -> Mapping[str, Board]:
+    """The systems of a model that an implementation can be executed beside, or the one of a name.
+
+    Raises ``ModelError`` for an unknown name, and where there is none.
+    """
+    if name is not None or len(model.systems) == 1:
+        board = of_model(model, name)
+        return {board.name: board}
+    found, problems = dict[str, Board](), list[ModelError]()
+    for one in model.systems:
+        try:
+            found[one] = of_model(model, one)
+        except ModelError as error:
+            problems.append(error)
+    if not found:
+        raise problems[0]
+    return found

@@ -86,10 +86,11 @@ def examine(
     ``watched``: whether its behaviour says what was put to the test.  Raises ``LogError`` for a file that
     is no log of the board, or not up to its end.
     """
-    log = open_log(path, how, system)
+    against = against or as_drawn()
+    log = open_log(path, how, system, against.boards)
     with closing(log.blocks()) as blocks:
         first = next(blocks)
-        run = _Run(log, against or as_drawn(), watched)
+        run = _Run(log, against, watched)
         run.block(first)
         for block in blocks:
             run.block(block)

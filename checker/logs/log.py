@@ -13,7 +13,8 @@ from rovercheck.checker.logs.errors import LogError, at, shortened
 from rovercheck.checker.logs.files import FileRows, opened
 from rovercheck.checker.logs.invalid import Invalid, InvalidCell
 from rovercheck.checker.logs.mapping import Column, ColumnMap
-from rovercheck.spec_model.abstraction import BoardSignal, boards
+from rovercheck.spec_model.abstraction import Board, BoardSignal
+from rovercheck.spec_model.abstraction import boards as of_the_rover
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.errors import did_you_mean
@@ -244,19 +245,22 @@ class _Stamps:
 # --- opening --------------------------------------------------------------------------------------
 
 
-def open_log(path: Path, how: ColumnMap, system: str = "") -> Log:
-    """The log of a file.  Raises ``LogError`` for what is no log of a board."""
+def open_log(path: Path, how: ColumnMap, system: str = "", boards: Mapping[str, Board] | None = None) -> Log:
+    """The log of a file, of one of these boards, by default of the rover's.
+
+    Raises ``LogError`` for what is no log of a board.
+    """
     rows = opened(path, how)
     try:
-        return _log(path.name, rows, how, system)
+        return _log(path.name, rows, how, system, of_the_rover() if boards is None else boards)
     except LogError:
         rows.close()
         raise
 
 
-def _log(name: str, rows: FileRows, how: ColumnMap, system: str) -> Log:
-    layout = _layout(rows.header, how, system or how.system)
-    vocabulary = Vocabulary(boards()[layout.board])
+def _log(name: str, rows: FileRows, how: ColumnMap, system: str, boards: Mapping[str, Board]) -> Log:
+    layout = _layout(rows.header, how, system or how.system, boards)
+    vocabulary = Vocabulary(boards[layout.board])
     log = Log(name, layout, rows, how)
     for index, header in enumerate(rows.header):
         if (column := layout.stated.get(header)) is not None:
@@ -272,17 +276,17 @@ def _converter(column: Column, vocabulary: Vocabulary, comma: bool) -> CellConve
     return converter(column, signal, signal.name in vocabulary.inputs, comma)
 
 
-def _layout(header: Sequence[str], how: ColumnMap, system: str) -> LogLayout:
+def _layout(header: Sequence[str], how: ColumnMap, system: str, boards: Mapping[str, Board]) -> LogLayout:
     names = set(header)
     for name in how.columns:
         if name not in names:
             raise LogError(f"has no column {name!r}, which the map names. {did_you_mean(name, header)}")
-    board = system or _board_of(header, how)
-    if board not in boards():
+    board = system or _board_of(header, how, boards)
+    if board not in boards:
         raise LogError(
-            f"There is no system {board!r} of which logs are checked. {did_you_mean(board, boards())}"
+            f"There is no system {board!r} of which logs are checked. {did_you_mean(board, boards)}"
         )
-    vocabulary = Vocabulary(boards()[board])
+    vocabulary = Vocabulary(boards[board])
     stated = _stated(header, how, vocabulary)
     if not any(c.signal not in vocabulary.inputs for c in stated.values()):
         outputs = ", ".join(o.name for o in vocabulary.board.outputs[:6])
@@ -321,13 +325,13 @@ def _named(header: Sequence[str]) -> str:
     return ", ".join(shortened(one_line(name)) for name in header[:SOME]) + rest
 
 
-def _board_of(header: Sequence[str], how: ColumnMap) -> str:
+def _board_of(header: Sequence[str], how: ColumnMap, boards: Mapping[str, Board]) -> str:
     names = {how.columns[name].signal if name in how.columns else name for name in header}
-    scores = {n: len(names & Vocabulary(b).signals.keys() - {NOW}) for n, b in boards().items()}
+    scores = {n: len(names & Vocabulary(b).signals.keys() - {NOW}) for n, b in boards.items()}
     best = max(scores, key=lambda name: scores[name])
     others = [n for n, score in scores.items() if n != best and score == scores[best]]
     if not scores[best]:
-        some = ", ".join(list(Vocabulary(next(iter(boards().values()))).signals)[:8])
+        some = ", ".join(list(Vocabulary(next(iter(boards.values()))).signals)[:8])
         raise LogError(
             f"no column has the name of a signal ({some} ...): its columns are {_named(header)}. "
             "Write a map of the columns, and name it with --map."

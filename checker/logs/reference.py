@@ -16,7 +16,7 @@ from rovercheck.spec_model.rover import systems
 class LogReference:
     """The charts of the boards, the properties and their systems; what is made of them is made once.
 
-    ``expected`` is the expected verdict of a property, by its id.
+    ``boards`` are those that a log may be of; ``expected`` is the expected verdict of a property, by its id.
     """
 
     def __init__(
@@ -27,7 +27,7 @@ class LogReference:
         expected: Callable[[str], str],
     ) -> None:
         self.expected = expected
-        self._boards, self._properties, self._systems = boards, properties, systems
+        self.boards, self._properties, self._systems = boards, properties, systems
         self._vocabularies: dict[str, Vocabulary] = {}
         self._cones: dict[tuple[str, frozenset[str], frozenset[str]], tuple[LogCone, ...]] = {}
         self._choices: dict[tuple[str, frozenset[str]], PropertySelection] = {}
@@ -35,7 +35,7 @@ class LogReference:
     def vocabulary(self, board: str) -> Vocabulary:
         """The names of a board."""
         if board not in self._vocabularies:
-            self._vocabularies[board] = Vocabulary(self._boards[board])
+            self._vocabularies[board] = Vocabulary(self.boards[board])
         return self._vocabularies[board]
 
     def cones(self, board: str, seen: frozenset[str], logged: frozenset[str]) -> tuple[LogCone, ...]:

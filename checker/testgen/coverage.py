@@ -22,6 +22,7 @@ from rovercheck.checker.testgen.search import (
 )
 from rovercheck.checker.verify.runs.replay import ReplayError
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.expr import Const
 from rovercheck.spec_model.lang.system import System
 
 NOT_TRIED = "not searched: the time was over"
@@ -149,7 +150,8 @@ def cover(
     asked = [g for g in coverage.goals if only is None or g.id in only]
     transitions = [g for g in asked if g.kind is GoalKind.TRANSITIONS and g.id in coverage.unknown]
     _by_engines(coverage, model, transitions, effort, tell)
-    _by_weather(coverage, {g.id for g in asked}, effort, tell)
+    if isinstance(coverage.board.system.assumed, Const):  # random inputs may be any
+        _by_weather(coverage, {g.id for g in asked}, effort, tell)
     left = [g for g in asked if g.id in coverage.unknown]
     for answer in refuted(coverage.board, left, Limits(seconds=effort.seconds), effort.jobs):
         _note(coverage, answer, tell)

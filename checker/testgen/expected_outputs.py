@@ -28,7 +28,7 @@ def required(board: Board, inputs: Sequence[Mapping[str, Value]]) -> Iterator[di
     reader, charts = board.reader(), Interpreter(board.system, measured=True)
     for given in inputs:
         charts.step(reader.step(given))
-        yield board.expected(charts.data)
+        yield board.expected(charts.valuation())
 
 
 def under_test(board: Board) -> BoardUnderTest:

@@ -1,6 +1,6 @@
 """What a user asks for, as boards and goals: whole boards, or single charts of them."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.checker.results.board_test import BoardTest
@@ -10,7 +10,8 @@ from rovercheck.checker.testgen.expected_outputs import expected
 from rovercheck.checker.testgen.formats import FORMATS
 from rovercheck.checker.testgen.keep import KeptTests
 from rovercheck.checker.testgen.scripts import steps
-from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction import boards as of_the_rover
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 
@@ -23,13 +24,16 @@ class Aim:
     goals: tuple[CoverGoal, ...]
 
 
-def aims(names: Sequence[str], kinds: Iterable[GoalKind]) -> list[Aim]:
-    """The goals of boards and charts by name; of both boards if none is named.
+def aims(
+    names: Sequence[str], kinds: Iterable[GoalKind], boards: Mapping[str, Board] | None = None
+) -> list[Aim]:
+    """The goals of boards and charts by name; of all boards if none is named, by default those of the rover.
 
     Tests are always of a whole board.  Raises ``ModelError`` for a name of no board, chart or block.
     """
-    found = [_aim(board, names, frozenset(kinds)) for board in boards().values()]
-    known = {*boards(), *(p.name for b in boards().values() for p in parts(b.system.components))}
+    among = of_the_rover() if boards is None else boards
+    found = [_aim(board, names, frozenset(kinds)) for board in among.values()]
+    known = {*among, *(p.name for b in among.values() for p in parts(b.system.components))}
     for name in names:
         if name not in known:
             raise ModelError(f"{name!r} is no board and no chart of one. {did_you_mean(name, known)}")

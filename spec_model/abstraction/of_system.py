@@ -24,9 +24,9 @@ def board_of(system: System, model: str = "") -> Board:
     lengths, or with data of the name of the clock.
     """
     if system.frozen:
-        names = ", ".join(v.name for v in system.frozen)
+        chosen = ", ".join(v.name for v in system.frozen)
         raise ModelError(
-            f"{system.name} is about every value of {names}, and firmware has one of them: write a constant "
+            f"{system.name} is about every value of {chosen}, and firmware has one of them: write a constant "
             "in its place to compare the system with an implementation."
         )
     if system.elapsed is not None:

@@ -177,7 +177,7 @@ def test_two_faults_of_one_chart_are_told_apart() -> None:
     result = search("board2", Changed("board2", both))
     assert {("esp_status",), ("imu_status",)} <= outputs(result)
     for one in result.deviations:
-        region = {("esp_status",): "Monitors_2.BLE", ("imu_status",): "Monitors_2.IMU"}.get(one.outputs)
+        region = {"esp_status": "Monitors_2.BLE", "imu_status": "Monitors_2.IMU"}.get(" ".join(one.outputs))
         if region:
             assert all(move.startswith(region) for move in one.scope.charts)
 

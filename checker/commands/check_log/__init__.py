@@ -7,7 +7,7 @@ import click
 
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.known import known_options
-from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, modelling, quietly
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,7 @@ class LogOptions:
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
 @known_options
 @changing
+@modelling
 @quietly
 @gathered(LogOptions, "options")
 def check_log(place: Path, options: LogOptions, charts: VariantOptions) -> Exit:

@@ -12,10 +12,11 @@ from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.commands.shared.known import KnownBook, known_book
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.compare.variants import varied
+from rovercheck.checker.compare.variants import boards_of_model, varied
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine, read_map
 from rovercheck.checker.model.variant import Variant
+from rovercheck.spec_model.lang.system import TICK_MS
 
 SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
 GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
@@ -53,10 +54,11 @@ def check_log(place: Path, options: LogOptions, variant: Variant) -> Exit:
 
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
-    against = _against(variant) if variant.name else None
+    changed = variant.name or variant.own is not None
+    against = _against(variant, options.system) if changed else None
     book = KnownBook({}, "")
     if options.known is not None or options.write_known is not None:
-        every = varied(variant.choices, variant.repair)
+        every = against.boards if against else varied(variant.choices, variant.repair)
         book = known_book(options.known, options.write_known, every, variant.name)
     asked = LogRequest(_map(options.map_file), options, variant.name, against, book)
     return _folder(place, asked) if place.is_dir() else _log(place, asked)
@@ -87,9 +89,21 @@ def _finish(campaign: LogCampaign) -> None:
         err.print(said, markup=False)
 
 
-def _against(variant: Variant) -> LogReference:
-    """The boards, properties and expected verdicts of a variant."""
-    found = varied(variant.choices, variant.repair)
+def _against(variant: Variant, name: str | None) -> LogReference:
+    """The boards, properties and expected verdicts of a variant.
+
+    Raises ``UsageError`` for a model whose steps are no rows of a log.
+    """
+    if variant.own is None:
+        found = varied(variant.choices, variant.repair)
+    else:
+        found = boards_of_model(variant.own, name)
+        for board in found.values():
+            if board.tick_ms != TICK_MS:
+                raise UsageError(
+                    f"{board.name} has steps of {board.tick_ms} ms, and logs are read in steps of {TICK_MS}; "
+                    "compare sets such a model beside its firmware."
+                )
     properties, systems = variant.properties(), variant.systems()
     return LogReference(found, properties, systems, lambda id: variant.expected(id).verdict)
 

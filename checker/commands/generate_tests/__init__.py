@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import SECONDS, gathered, quietly
+from rovercheck.checker.commands.shared.options import SECONDS, gathered, modelling, quietly
 from rovercheck.checker.engines import LOADED
 
 
@@ -27,7 +27,7 @@ class GenerationOptions:
 
 @click.command(short_help="Write tests that cover the charts, with expected outputs.")
 @click.option(
-    "--system", "names", multiple=True, metavar="BOARD|CHART", help="Only these; both boards if none."
+    "--system", "names", multiple=True, metavar="BOARD|CHART", help="Only these; all boards if none."
 )
 @click.option(
     "--cover",
@@ -80,9 +80,10 @@ class GenerationOptions:
     metavar="DIR",
     help="The folder to write into.",
 )
+@modelling
 @quietly
 @gathered(GenerationOptions, "options")
-def generate_tests(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
+def generate_tests(options: GenerationOptions, as_json: bool, output: Path, model: Path | None) -> Exit:
     """Write short input sequences that cover the charts, with the outputs that the charts require.
 
     Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
@@ -93,6 +94,7 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path) -> E
     with prepared(*LOADED):
         from rovercheck.checker.commands.generate_tests.run import CoveringRequest
         from rovercheck.checker.commands.generate_tests.run import generate_tests as run
+        from rovercheck.checker.model.load import load
         from rovercheck.checker.system.instrument.goals import GoalKind
         from rovercheck.checker.testgen.coverage import GenerationEffort
 
@@ -105,6 +107,7 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path) -> E
             options.format,
             GenerationEffort(options.timeout, options.ticks, options.jobs, options.seed),
             options.kept,
+            load(model) if model else None,
             options.keep,
         )
         return run(asked, output, as_json)

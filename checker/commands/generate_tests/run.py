@@ -9,7 +9,9 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
+from rovercheck.checker.compare.variants import boards_of_model
 from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model import Model
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
@@ -19,6 +21,7 @@ from rovercheck.checker.testgen.generate import Aim, aims, files, only
 from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.rover import systems
 
 SHOWN = 10
@@ -34,6 +37,7 @@ class CoveringRequest:
     format: str
     effort: GenerationEffort
     kept: bool
+    own: Model | None = None
     keep: Path | None = None
     """The folder in which a set goes on from the tests it has."""
 
@@ -53,10 +57,13 @@ def generate_tests(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
 
     Raises ``ModelError`` for a name of no board or chart, ``UsageError`` where nothing can be written.
     """
+    if asked.own is not None and asked.kept:
+        raise UsageError(f"No tests of {asked.own.name} come with rovercheck; leave --kept out.")
     if asked.kept and asked.keep:
         raise UsageError("--kept writes tests without a search, --keep searches for more; leave one out.")
     found: list[Generated] = []
-    for aim in aims(asked.names, asked.kinds):
+    boards = None if asked.own is None else boards_of_model(asked.own)
+    for aim in aims(asked.names, asked.kinds, boards):
         found.append(_kept(aim, asked, asked.keep) if asked.keep else _generated(aim, asked, output))
         if not as_json:
             out.print("\n".join(report(found[-1], asked, output)), markup=False)
@@ -87,7 +94,7 @@ def _kept(aim: Aim, asked: CoveringRequest, folder: Path) -> Generated:
 
     A set is always one of all goals of a board; only those of ``aim`` are searched for.
     """
-    board, charts = aim.board, fingerprint(aim.board, systems()[aim.board.name])
+    board, charts = aim.board, fingerprint(aim.board, _model(aim.board))
     coverage = GoalCoverage(board, watched(board.system).goals)
     coverage.go_on(_set_of(board, folder), charts)
     interrupted = _searched(coverage, aim, asked.effort)
@@ -100,6 +107,8 @@ def _kept(aim: Aim, asked: CoveringRequest, folder: Path) -> Generated:
 def _set_of(board: Board, folder: Path | None) -> KeptTests:
     """The set kept in a folder; where there is none, that of the project."""
     place = folder and folder / f"{board.name}.json"
+    if board.model and (place is None or not place.exists()):
+        return KeptTests(())
     if place is None or not place.exists():
         return kept_of(board, kept_text(board.name))
     try:
@@ -117,12 +126,17 @@ def _write(content: str, place: Path) -> None:
     write(content, place)
 
 
+def _model(board: Board) -> System:
+    """The board with its environment; a model of one's own is what it says itself."""
+    return board.system if board.model else systems()[board.name]
+
+
 def _searched(coverage: GoalCoverage, aim: Aim, effort: GenerationEffort) -> bool:
     """Search until all is known or the user has seen enough; whether that was so."""
     wanted = {g.id for g in aim.goals}
     with ProgressLine() as line:
         try:
-            cover(coverage, systems()[aim.board.name], effort, GenerationProgress(line, coverage), wanted)
+            cover(coverage, _model(aim.board), effort, GenerationProgress(line, coverage), wanted)
         except KeyboardInterrupt:
             return True
     return False
