@@ -18,7 +18,7 @@ from rovercheck.spec_model.abstraction.of_system import board_of
 from rovercheck.spec_model.lang.domain import chosen
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import Assumption
-from tests.model_files.files import HEATER
+from tests.model_files.files import BASELINE, HEATER
 
 FIRMWARE = """
 class Heater:
@@ -63,6 +63,7 @@ class HotAndBrief(Heater):
 def firmware(tmp_path: Path) -> Path:
     """A folder with the model that ``init`` writes, and with firmwares of it."""
     (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
+    (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
     (tmp_path / "firmware.py").write_text(FIRMWARE, encoding="utf-8")
     return tmp_path
 
@@ -126,6 +127,49 @@ def test_mistakes(
     monkeypatch.chdir(firmware)
     assert run(["compare", "--model", "heater.py", *words]) is Exit.USAGE
     assert said in " ".join(capsys.readouterr().err.split())
+
+
+def logged(folder: Path, name: str) -> Path:
+    """A log of a firmware: the room cools, warms up and cools again, with the door opened now and then."""
+    running_one = running(folder, name)
+    running_one.reset()
+    rows = ["now_ms,temperature,door_open,heating"]
+    for step in range(1, 3001):
+        warm = (20, 17, 20, 23, 24, 19, 10, 10)[step // 100 % 8]
+        given = {"now_ms": 20 * step, "temperature": warm, "door_open": step % 700 < 3}
+        heating = running_one.step(given)["heating"]
+        rows.append(f"{20 * step},{warm},{int(given['door_open'])},{int(heating)}")
+    file = folder / f"{name}.csv"
+    file.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return file
+
+
+def test_a_log_is_checked_against_it(
+    firmware: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(firmware)
+    for name, code, said in (
+        ("Heater", Exit.AS_EXPECTED, "a run of the charts"),
+        ("Hot", Exit.FAILED, "Heater: On → Off (transition 1) [door_open || temperature > 22]"),
+    ):
+        assert run(["check-log", str(logged(firmware, name)), "--model", "heater.py"]) is code
+        assert said in capsys.readouterr().out
+    assert run(["check-log", "Hot.csv", "--model", "heater.py", "--system", "Heate"]) is Exit.USAGE
+    assert "Did you mean 'Heater'" in capsys.readouterr().err
+
+
+def test_tests_that_cover_it_find_what_is_otherwise(
+    firmware: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(firmware)
+    asked = ["generate-tests", "--model", "heater.py", "--format", "pytest", "-o", "made"]
+    assert run([*asked, "--kept"]) is Exit.USAGE
+    assert run([*asked, "--cover", "transitions", "--cover", "boundaries"]) is Exit.AS_EXPECTED
+    capsys.readouterr()
+    for name, code in (("Heater", 0), ("Hot", 1), ("Brief", 1)):
+        monkeypatch.setenv("ROVERCHECK_IMPL", f"python:{firmware / 'firmware.py'}:{name}")
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "made"]
+        assert subprocess.run(command, capture_output=True, check=False).returncode == code, name
 
 
 # --- what a system stands for ------------------------------------------------------------------------

@@ -168,7 +168,9 @@ COMMANDS = {
 
 BEFORE = {
     "docs/ci.md": ["rovercheck init heater", "cd heater"],
+    "docs/compare.md": ["rovercheck init heater", "cd heater"],
     "docs/findings.md": ["rovercheck init heater", "cd heater"],
+    "docs/generate-tests.md": ["rovercheck init heater", "cd heater"],
 }
 """What a page takes for granted, done before its first command."""
 
