@@ -95,10 +95,8 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
         len(found) - 1
     )
     assert f"({len(found)} deviations)" in said
-    assert (
-        f"Deviations with a small run and a test: 1 of {len(found)}; "
-        f"all of them with --mismatches {len(found)}." in said
-    )
+    assert f"Deviations with a small run and a test: 1 of {len(found)}; " in said
+    assert f"all of them with --mismatches {len(found)}." in said
     for one in found[1:]:
         assert f"first in step {one['step']} of {one['origin']}" in said
         assert f"{one['decided_by']}: {one['differences'][0]['output']} " in said

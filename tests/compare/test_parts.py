@@ -175,9 +175,13 @@ def test_two_faults_of_one_chart_are_told_apart() -> None:
             found["imu_status"] = 2 - int(found["imu_status"])
 
     result = search("board2", Changed("board2", both))
-    assert {("esp_status",), ("imu_status",)} <= outputs(result)
+    regions: dict[tuple[str, ...], str] = {
+        ("esp_status",): "Monitors_2.BLE",
+        ("imu_status",): "Monitors_2.IMU",
+    }
+    assert set(regions) <= outputs(result)
     for one in result.deviations:
-        region = {"esp_status": "Monitors_2.BLE", "imu_status": "Monitors_2.IMU"}.get(" ".join(one.outputs))
+        region = regions.get(one.outputs)
         if region:
             assert all(move.startswith(region) for move in one.scope.charts)
 
