@@ -1,4 +1,4 @@
-"""Logs of a twin: half of a drive on scenarios, half of random inputs; some are damaged, by seed."""
+"""Logs of a twin: of the scenarios, of long covering tests and of random inputs; most are damaged, by seed."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,17 +10,17 @@ from benchmarks.measure import ROOT
 from benchmarks.twins.exposed import outputs
 from benchmarks.twins.firmware import Firmware
 from rovercheck.checker.adapters.implementation import Implementation, Value
+from rovercheck.checker.testgen import kept as covering_tests
 from rovercheck.spec_model.abstraction import Board
-from rovercheck.spec_model.lang.system import TICK_MS
 from rovercheck.supervisor.bench.columns import inputs1, inputs2
 from rovercheck.supervisor.bench.scenario import loads
 from rovercheck.supervisor.bench.simulation import simulate
 from tests.logs.recorded import Row, record, text
 
-STEPS = 1500
-DAMAGES = ("whole", "cut", "columns lost", "cells out of range", "rows missing", "all of it")
-CELLS = (1e9, -1e9, float("nan"), 99, -7)
-"""What stands in a damaged cell: no signal of a board may have all of these values."""
+STEPS, COVERING = 1500, 8
+DAMAGES = ("whole", "cut", "columns lost", "cells out of range", "rows missing", "all of it", "last line torn")
+CELLS = (1e12, -1e12, float("nan"))
+"""What stands in a damaged cell of an input: no input of a board may have one of these values."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class TwinLog:
 
 @cache
 def driven(board: str) -> tuple[tuple[Mapping[str, Value], ...], ...]:
-    """What the board reads in each scenario of ``examples/scenarios``, at most so many steps of it."""
+    """What the board reads in each scenario of ``examples/scenarios``, then in the longest covering tests."""
     found = []
     for file in sorted((ROOT / "examples" / "scenarios").glob("*.toml")):
         run = simulate(loads(file.read_text(encoding="utf-8")))
@@ -45,7 +45,8 @@ def driven(board: str) -> tuple[tuple[Mapping[str, Value], ...], ...]:
             else [inputs2(step.inputs) for step in run.board2]
         )
         found.append(tuple(steps[:STEPS]))
-    return tuple(found)
+    longest = sorted(covering_tests(board), key=lambda test: -len(test.steps))
+    return (*found, *(tuple(dict(given) for given in test.steps) for test in longest[:COVERING]))
 
 
 def drawn(board: Board, seed: int) -> tuple[Mapping[str, Value], ...]:
@@ -56,7 +57,7 @@ def drawn(board: Board, seed: int) -> tuple[Mapping[str, Value], ...]:
 
 
 def logs(firmware: Firmware, number: int) -> Iterator[TwinLog]:
-    """So many logs, the same each time: every other one of a scenario."""
+    """So many logs, the same each time: every other one of a scenario or a covering test, as far as they go."""
     board, drives = firmware.board, driven(firmware.board_name)
     for n in range(number):
         inputs = drives[n // 2 % len(drives)] if n % 2 and n // 2 < len(drives) else drawn(board, n)
@@ -102,15 +103,17 @@ def written(twin: Implementation, log: TwinLog, board: Board, folder: Path) -> P
         _spoil(found, board, Random(log.seed + 1))
     file = folder / log.name
     whole = text(found, left.without)
-    file.write_text(_torn(whole) if log.damage == "all of it" else whole, encoding="utf-8")
+    file.write_text(_torn(whole) if log.damage == "last line torn" else whole, encoding="utf-8")
     return file
 
 
 def _spoil(found: Sequence[Row], board: Board, random: Random) -> None:
     """Cells that stand for no value: of inputs and outputs, never of the time."""
-    names = [s.name for s in (*board.inputs, *board.outputs) if s.name != "now_ms"]
+    inputs = {s.name for s in board.inputs if s.name != "now_ms"}
+    names = sorted(inputs | {o.name for o in board.outputs})
     for _ in range(random.randint(3, 12)):
-        first, name, cell = random.randrange(len(found)), random.choice(names), random.choice(CELLS)
+        first, name = random.randrange(len(found)), random.choice(names)
+        cell = random.choice(CELLS) if name in inputs else float("nan")
         for row in found[first : first + random.choice((1, 1, 3, 20))]:
             row[name] = cell
 
@@ -119,7 +122,3 @@ def _torn(whole: str) -> str:
     """The log up to some cell of its last line, as where the power is lost."""
     lines = whole.splitlines(keepends=True)
     return "".join(lines[:-1]) + lines[-1].rpartition(",")[0]
-
-
-SECONDS = STEPS * TICK_MS / 1000
-"""How long the longest log lasts."""
