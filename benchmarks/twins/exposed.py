@@ -88,9 +88,9 @@ def _note(found: Exposure, number: int, required: Sequence[Values], given: Seque
 
 
 def differing(one: Values, other: Values) -> set[str]:
-    """The outputs that are not the same, numbers within what the cross-check allows."""
+    """The outputs of both that are not the same, numbers within what the cross-check allows."""
     return {
         name
-        for name in one
+        for name in one.keys() & other.keys()
         if one[name] != other[name] and not isclose(one[name], other[name], rel_tol=NEAR, abs_tol=NEAR)
     }

@@ -65,7 +65,7 @@ def twin(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
     address = firmware.written(folder / "twin", firmware.differences)
     report = told(firmware, address, folder, effort.examples)
     shown = shown_alone(firmware)
-    verdict = judged(firmware.board, firmware.differences, shown, [g.outputs for g in report.groups])
+    verdict = judged(firmware.board, firmware.differences, shown, report.groups)
     yield (
         f"twin: {len(verdict.found)} of {len(firmware.differences)} differences told in {len(report.groups)} "
         f"groups; {len(verdict.again)} groups more of the same, {len(verdict.false)} false "

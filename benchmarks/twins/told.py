@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.measure import ROOT
-from benchmarks.twins.firmware import Firmware, Planted
+from benchmarks.twins.firmware import READERS, Firmware, Planted
 from rovercheck.checker.compare.beside import author_of
 from rovercheck.spec_model.abstraction import Board
 
@@ -98,10 +98,15 @@ def _group(board: Board, row: Mapping[str, Any]) -> ToldGroup:
     )
 
 
-def fits(board: Board, planted: Planted, alone: Collection[str], outputs: Collection[str]) -> bool:
-    """Whether outputs may differ by a planted difference: all are of its parts, and it shows in them alone."""
-    found = set(outputs)
-    return bool(found) and found <= planted.own_outputs(board) & set(alone)
+def fits(board: Board, planted: Planted, alone: Collection[str], group: ToldGroup) -> bool:
+    """Whether a group may be of a planted difference: it shows alone in those outputs, and it is of its part.
+
+    Of its part is what its parts write, and what a report says its parts decide, however far on it shows.
+    """
+    found = group.outputs
+    own = found <= planted.own_outputs(board)
+    named = any(name in group.part for part in planted.parts for name in (part, READERS.get(part, part)))
+    return bool(found) and found <= set(alone) and (own or named)
 
 
 def matched(fitting: Mapping[str, Sequence[int]]) -> dict[str, int]:
@@ -136,11 +141,11 @@ class ToldTwin:
 
 
 def judged(
-    board: Board, planted: Iterable[Planted], alone: Mapping[str, Collection[str]], groups: Sequence[Collection[str]]
+    board: Board, planted: Iterable[Planted], alone: Mapping[str, Collection[str]], groups: Sequence[ToldGroup]
 ) -> ToldTwin:
-    """Gives every difference a group of its own where there is one; ``groups`` are the outputs of each."""
+    """Gives every difference a group of its own where there is one."""
     fitting = {
-        one.id: [n for n, outputs in enumerate(groups) if fits(board, one, alone[one.id], outputs)]
+        one.id: [n for n, group in enumerate(groups) if fits(board, one, alone[one.id], group)]
         for one in planted
     }
     found = matched(fitting)

@@ -10,7 +10,7 @@ from benchmarks.twins.exposed import differing, outputs, running
 from benchmarks.twins.firmware import FIRMWARES, Firmware, Planted, PlantingError, changed
 from benchmarks.twins.measure import ALONE, shown_alone
 from benchmarks.twins.recordings import DAMAGES, TwinLog, kept, written
-from benchmarks.twins.told import judged, matched
+from benchmarks.twins.told import ToldGroup, judged, matched
 from rovercheck.checker.compare.beside import compared, differences, rerun
 from rovercheck.checker.logs import ColumnMap, examine
 from rovercheck.checker.testgen import kept as covering_tests
@@ -106,13 +106,17 @@ def test_each_difference_has_a_group_of_its_own_where_there_is_one() -> None:
     assert matched({"one": [0], "two": [0, 1]}) == {"one": 0, "two": 1}
 
 
+def group(part: str, *names: str) -> ToldGroup:
+    return ToldGroup(part, tuple((name, "0", "1") for name in names))
+
+
 def test_groups_are_told_again_or_false() -> None:
     firmware = FIRMWARES["board1_c"]
     planted = [one for one in firmware.differences if one.parts == ("Monitor_temperature",)][:1]
     alone = {planted[0].id: ["temp_status", "critical_mask"]}
-    found = judged(
-        firmware.board, planted, alone, [{"temp_status"}, {"temp_status"}, {"critical_mask"}, {"v_ref"}]
-    )
+    temperature = group("Monitor_temperature", "temp_status")
+    others = [group("Fault_masks", "critical_mask"), group("Motion_Supervision", "v_ref")]
+    found = judged(firmware.board, planted, alone, [temperature, temperature, *others])
     assert found.found == {planted[0].id: 0}
     assert (found.missing, found.again, found.false) == ((), (1,), (2, 3))
 
@@ -120,8 +124,18 @@ def test_groups_are_told_again_or_false() -> None:
 def test_a_group_in_which_the_difference_does_not_show_alone_is_not_its() -> None:
     firmware = FIRMWARES["board1_c"]
     planted = [one for one in firmware.differences if one.parts == ("Fault_masks",)]
-    found = judged(firmware.board, planted, {planted[0].id: ["degraded_mask"]}, [{"critical_mask"}])
+    alone = {planted[0].id: ["degraded_mask"]}
+    found = judged(firmware.board, planted, alone, [group("Fault_masks", "critical_mask")])
     assert found.missing == (planted[0].id,) and found.false == (0,)
+
+
+def test_what_a_part_decides_further_on_is_of_that_part() -> None:
+    firmware = FIRMWARES["board2_c"]
+    planted = [one for one in firmware.differences if one.parts == ("Motion_Supervision_2",)][:1]
+    alone = {planted[0].id: ["omega_ref_actuation", "left_rpm"]}
+    passed_on = group("Actuation (Motion_Supervision_2, which Actuation passes on)", "left_rpm")
+    assert judged(firmware.board, planted, alone, [passed_on]).found == {planted[0].id: 0}
+    assert judged(firmware.board, planted, alone, [group("Actuation", "left_rpm")]).false == (0,)
 
 
 # --- logs -------------------------------------------------------------------------------------------
