@@ -2,9 +2,10 @@
 
     python -m benchmarks.twins [FIRMWARE...] [--stage STAGE]... [--examples N] [--logs N] [--seconds S]
 
-Stages: ``base`` (does each firmware conform before anything is planted), ``twin`` (which differences are told),
-``further`` (are faults on top of what is known reported as new), ``logs`` (what is said of logs of the twins),
-and ``alone``, which runs every difference by itself and keeps where it shows.  Without one: all but ``alone``.
+Stages: ``base`` (does each firmware conform before anything is planted), ``twin`` (which differences are
+told), ``further`` (are faults on top of what is known reported as new), ``logs`` (what is said of logs of the
+twins), and ``alone``, which runs every difference by itself and keeps where it shows.  Without one: all but
+``alone``.
 """
 
 from collections.abc import Callable, Iterator, Mapping

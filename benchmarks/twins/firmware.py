@@ -37,9 +37,10 @@ class Planted:
     """A difference from the charts, as a change of the source text of a firmware.
 
     ``edits`` are a file, the text that stands there exactly once, and what replaces it.  ``parts`` are the
-    charts and blocks of the model in which it arises, one of them or several; ``outputs`` the signals in which
-    it shows, where only some of those of its parts do.  ``tags`` say whether it shows in the first step, hides
-    others, is shared memory, or is in the task.  ``cause`` is a regular expression for what a right cause says.
+    charts and blocks of the model in which it arises, one of them or several; ``outputs`` the signals in
+    which it shows, where only some of those of its parts do.  ``tags`` say whether it shows in the first
+    step, hides others, is shared memory, or is in the task.  ``cause`` is a regular expression for what a
+    right cause says.
     """
 
     id: str
@@ -116,7 +117,7 @@ class Firmware:
         return f"c:{folder}" if self.language == "c" else self._main(folder)
 
     def _main(self, folder: Path) -> str:
-        """The module from which a supervisor in Python is started: in its process the package is that here."""
+        """The module that starts a supervisor in Python: in its process the package is that here."""
         name = self.board_name.capitalize()
         main = folder / "main.py"
         text = MAIN.format(folder=str(folder.resolve()), package=PACKAGE, board=self.board_name, name=name)

@@ -1,4 +1,4 @@
-"""The measurements of one firmware: its base, what is told of its twin, of further faults, and of its logs."""
+"""The measurements of one firmware: its base, what is told of its twin, of further faults, of its logs."""
 
 import json
 import re
@@ -15,7 +15,7 @@ from benchmarks.twins.recordings import KeptRows, kept, logs, written
 from benchmarks.twins.told import ToldComparison, command, judged, told
 
 ALONE = HERE / "planted" / "alone.json"
-"""In which outputs each difference shows alone, kept because it takes minutes; ``--stage alone`` writes it."""
+"""In which outputs each difference shows alone; ``--stage alone`` writes it, in minutes."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def further(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[st
         return
     with_known = ("--known", str(known))
     again = told(firmware, address, folder, effort.examples, *with_known)
-    yield f"all known: exit code {again.answer} (0 is right), {len(again.new)} groups still new {again.trouble}"
+    yield f"all known: exit code {again.answer} (0 is right), {len(again.new)} groups new {again.trouble}"
     yield from (f"  STILL NEW {group}" for group in again.new)
     found = 0
     asked = firmware.further[: effort.further]
@@ -123,9 +123,7 @@ def _reported(
     return False, f"NOT NEW  {one.id}: {one.says} (exit code {report.answer}{others}) {report.trouble}"
 
 
-def gone(
-    firmware: Firmware, folder: Path, effort: TwinEffort, with_known: tuple[str, ...]
-) -> Iterator[str]:
+def gone(firmware: Firmware, folder: Path, effort: TwinEffort, with_known: tuple[str, ...]) -> Iterator[str]:
     """Whether known deviations are reported to be gone once nothing is planted any more."""
     report = told(firmware, firmware.written(folder / "mended"), folder, effort.examples, *with_known)
     yield (
@@ -176,7 +174,9 @@ def recorded(firmware: Firmware, folder: Path, number: int) -> LoggedDifferences
     return LoggedDifferences(place, exposed, shown)
 
 
-def _logged(required: Sequence[Mapping[str, Any]], given: Sequence[Mapping[str, Any]], left: KeptRows) -> frozenset[str]:
+def _logged(
+    required: Sequence[Mapping[str, Any]], given: Sequence[Mapping[str, Any]], left: KeptRows
+) -> frozenset[str]:
     found: set[str] = set()
     for step in left.steps:
         if required[step] != given[step]:
@@ -213,8 +213,8 @@ def _checked(firmware: Firmware, made: LoggedDifferences) -> Iterator[str]:
             if not _planted_in(firmware, made, row["log"], deviation["outputs"]):
                 of_none[f"{row['log']}: {', '.join(deviation['outputs'])}"] += 1
     yield (
-        f"check-log: {len(rows)} logs, {len(refused) - len(internal)} refused, {len(internal)} internal errors; "
-        f"{deviations} entries, {sum(of_none.values())} where no difference shows "
+        f"check-log: {len(rows)} logs, {len(refused) - len(internal)} refused, {len(internal)} internal "
+        f"errors; {deviations} entries, {sum(of_none.values())} where no difference shows "
         f"({monotonic() - began:.0f} s, exit code {done.returncode})"
     )
     yield from (f"  REFUSED {row['log']}: {row['error']}" for row in refused)
@@ -223,8 +223,7 @@ def _checked(firmware: Firmware, made: LoggedDifferences) -> Iterator[str]:
 
 def _planted_in(firmware: Firmware, made: LoggedDifferences, log: str, found: Collection[str]) -> bool:
     return any(
-        set(found) & one.own_outputs(firmware.board) & made.shown[log][one.id]
-        for one in firmware.differences
+        set(found) & one.own_outputs(firmware.board) & made.shown[log][one.id] for one in firmware.differences
     )
 
 
@@ -236,7 +235,8 @@ def _diagnosed(
     try:
         document = json.loads(done.stdout)
     except ValueError:
-        yield f"diagnose: no report, exit code {done.returncode}: {(done.stderr or done.stdout).strip()[-500:]}"
+        said = (done.stderr or done.stdout).strip()[-500:]
+        yield f"diagnose: no report, exit code {done.returncode}: {said}"
         return
     found: dict[str, str] = {}
     false, parts = 0, 0
@@ -255,14 +255,16 @@ def _diagnosed(
             false += sum(not any(names(one, change) for one in candidates) for change in changes)
             lines += [f"    RIGHT {one.id}" for one in named]
     yield (
-        f"diagnose: {len(found)} of {len(exposed)} causes named right in {parts} parts, {false} changes of no "
-        f"planted difference ({monotonic() - began:.0f} s, exit code {done.returncode})"
+        f"diagnose: {len(found)} of {len(exposed)} causes named right in {parts} parts, {false} changes of "
+        f"no planted difference ({monotonic() - began:.0f} s, exit code {done.returncode})"
     )
     yield from lines
 
 
 def _in_part(one: Planted, part: Mapping[str, Any]) -> bool:
-    text = json.dumps([part["part"], part["cause"], part["partial"], [c["outputs"] for c in part["first_cases"]]])
+    text = json.dumps(
+        [part["part"], part["cause"], part["partial"], [c["outputs"] for c in part["first_cases"]]]
+    )
     return any(name in text for name in (*one.parts, *one.outputs))
 
 

@@ -1,4 +1,4 @@
-"""Logs of a twin: of the scenarios, of long covering tests and of random inputs; most are damaged, by seed."""
+"""Logs of a twin: of scenarios, of long covering tests and of random inputs; most are damaged, by seed."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,7 +18,15 @@ from rovercheck.supervisor.bench.simulation import simulate
 from tests.logs.recorded import Row, record, text
 
 STEPS, COVERING = 1500, 8
-DAMAGES = ("whole", "cut", "columns lost", "cells out of range", "rows missing", "all of it", "last line torn")
+DAMAGES = (
+    "whole",
+    "cut",
+    "columns lost",
+    "cells out of range",
+    "rows missing",
+    "all of it",
+    "last line torn",
+)
 CELLS = (1e12, -1e12, float("nan"))
 """What stands in a damaged cell of an input: no input of a board may have one of these values."""
 
@@ -57,7 +65,7 @@ def drawn(board: Board, seed: int) -> tuple[Mapping[str, Value], ...]:
 
 
 def logs(firmware: Firmware, number: int) -> Iterator[TwinLog]:
-    """So many logs, the same each time: every other one of a scenario or a covering test, as far as they go."""
+    """So many logs, the same each time: every other one of a scenario or a covering test while there are."""
     board, drives = firmware.board, driven(firmware.board_name)
     for n in range(number):
         inputs = drives[n // 2 % len(drives)] if n % 2 and n // 2 < len(drives) else drawn(board, n)
@@ -90,7 +98,7 @@ def kept(log: TwinLog, board: Board) -> KeptRows:
         lost = {random.choice(steps) + k for _ in range(5) for k in range(random.choice((1, 1, 2, 7, 40)))}
         steps = [s for s in steps if s not in lost]
     if log.damage in ("columns lost", "all of it"):
-        names = [s.name for s in (*board.inputs, *board.outputs) if s.name != "now_ms"]
+        names = [s.name for s in board.inputs if s.name != "now_ms"] + [o.name for o in board.outputs]
         without = set(random.sample(names, random.randint(1, 6)))
     return KeptRows(tuple(steps), frozenset(without))
 

@@ -141,7 +141,10 @@ class ToldTwin:
 
 
 def judged(
-    board: Board, planted: Iterable[Planted], alone: Mapping[str, Collection[str]], groups: Sequence[ToldGroup]
+    board: Board,
+    planted: Iterable[Planted],
+    alone: Mapping[str, Collection[str]],
+    groups: Sequence[ToldGroup],
 ) -> ToldTwin:
     """Gives every difference a group of its own where there is one."""
     fitting = {

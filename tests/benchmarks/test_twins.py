@@ -63,13 +63,13 @@ def test_every_difference_is_known_to_show_in_its_own_outputs(firmware: Firmware
 
 def test_what_shows_alone_is_kept_of_these_differences_only() -> None:
     kept_ids = {name: set(table) for name, table in json.loads(ALONE.read_text(encoding="utf-8")).items()}
-    assert kept_ids == {
-        f.name: {one.id for one in (*f.differences, *f.further)} for f in FIRMWARES.values()
-    }
+    assert kept_ids == {f.name: {one.id for one in (*f.differences, *f.further)} for f in FIRMWARES.values()}
 
 
 @EVERY
-def test_the_firmware_conforms_and_its_twin_does_not(firmware: Firmware, request: pytest.FixtureRequest) -> None:
+def test_the_firmware_conforms_and_its_twin_does_not(
+    firmware: Firmware, request: pytest.FixtureRequest
+) -> None:
     if firmware.language == "c":
         request.getfixturevalue("cc")
     with running(firmware) as base:
