@@ -68,8 +68,8 @@ def twin(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
     verdict = judged(firmware.board, firmware.differences, shown, report.groups)
     yield (
         f"twin: {len(verdict.found)} of {len(firmware.differences)} differences told in {len(report.groups)} "
-        f"groups; {len(verdict.again)} groups more of the same, {len(verdict.false)} false "
-        f"({monotonic() - began:.0f} s, exit code {report.answer})"
+        f"groups; {len(verdict.again)} more of the same, {len(verdict.mixed)} of several, "
+        f"{len(verdict.false)} false ({monotonic() - began:.0f} s, exit code {report.answer})"
     )
     if report.trouble:
         yield f"  trouble: {report.trouble}"
@@ -78,6 +78,7 @@ def twin(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
         group = report.groups[verdict.found[one.id]] if one.id in verdict.found else None
         yield f"  {'told' if group else 'NOT TOLD':8} {one.id}{_tags(one)}: {group or one.says}"
     yield from (f"  again    {report.groups[n]}" for n in verdict.again)
+    yield from (f"  several  {report.groups[n]}" for n in verdict.mixed)
     yield from (f"  FALSE    {report.groups[n]}" for n in verdict.false)
 
 

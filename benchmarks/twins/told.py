@@ -6,8 +6,8 @@ Read with tolerance: a mismatch without a part belongs to the part that writes i
 import json
 import subprocess
 import sys
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -136,13 +136,15 @@ class ToldTwin:
     missing: tuple[str, ...]
     again: tuple[int, ...]
     """Groups beyond the one of a difference."""
+    mixed: tuple[int, ...]
+    """Groups that only several differences of a part show together."""
     false: tuple[int, ...]
     """Groups that no planted difference shows alone."""
 
 
 def judged(
     board: Board,
-    planted: Iterable[Planted],
+    planted: Sequence[Planted],
     alone: Mapping[str, Collection[str]],
     groups: Sequence[ToldGroup],
 ) -> ToldTwin:
@@ -153,9 +155,19 @@ def judged(
     }
     found = matched(fitting)
     of_some = {n for numbers in fitting.values() for n in numbers}
+    mixed = [n for n in range(len(groups)) if n not in of_some and _mixed(board, planted, alone, groups[n])]
     return ToldTwin(
         found,
         tuple(name for name in fitting if name not in found),
         tuple(sorted(of_some - set(found.values()))),
-        tuple(n for n in range(len(groups)) if n not in of_some),
+        tuple(mixed),
+        tuple(n for n in range(len(groups)) if n not in of_some and n not in mixed),
     )
+
+
+def _mixed(
+    board: Board, planted: Sequence[Planted], alone: Mapping[str, Collection[str]], group: ToldGroup
+) -> bool:
+    """Whether each output of a group is one that some difference shows alone, in a group of this part."""
+    one_each = (replace(group, differences=(one,)) for one in group.differences)
+    return all(any(fits(board, p, alone[p.id], one) for p in planted) for one in one_each)

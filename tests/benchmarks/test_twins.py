@@ -121,6 +121,15 @@ def test_groups_are_told_again_or_false() -> None:
     assert (found.missing, found.again, found.false) == ((), (1,), (2, 3))
 
 
+def test_a_group_of_two_differences_is_of_neither_and_not_false() -> None:
+    firmware = FIRMWARES["board1_py"]
+    planted = [one for one in firmware.differences if one.id in ("stop-at-power-up", "turns-with-0.4")]
+    alone = {"stop-at-power-up": ["actuate_emergency_stop"], "turns-with-0.4": ["omega_ref"]}
+    both = group("Motion_Supervision", "actuate_emergency_stop", "omega_ref")
+    found = judged(firmware.board, planted, alone, [both])
+    assert (found.found, found.mixed, found.false) == ({}, (0,), ())
+
+
 def test_a_group_in_which_the_difference_does_not_show_alone_is_not_its() -> None:
     firmware = FIRMWARES["board1_c"]
     planted = [one for one in firmware.differences if one.parts == ("Fault_masks",)]
