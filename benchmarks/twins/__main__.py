@@ -31,7 +31,7 @@ STAGES: Mapping[str, Stage] = {
 @click.command(help=(__doc__ or "").replace("\n\n    ", "\n\n\b\n    "))
 @click.argument("firmwares", nargs=-1, type=click.Choice(list(FIRMWARES)), metavar="[FIRMWARE]...")
 @click.option("--stage", "stages", multiple=True, type=click.Choice(list(STAGES)), help="Only this stage.")
-@click.option("--examples", default=0, show_default=True, help="Random runs beside the fixed ones.")
+@click.option("--examples", default=60, show_default=True, help="Random runs beside the fixed ones.")
 @click.option("--logs", default=50, show_default=True, help="Logs of each firmware.")
 @click.option("--seconds", default=20.0, show_default=True, help="For the causes of one part.")
 @click.option("--further", default=15, show_default=True, help="Faults planted on top of each firmware.")

@@ -12,7 +12,7 @@ from typing import Any
 from benchmarks.twins.exposed import differing, exposure, inputs_of, outputs, running
 from benchmarks.twins.firmware import HERE, Firmware, Planted
 from benchmarks.twins.recordings import KeptRows, kept, logs, written
-from benchmarks.twins.told import ToldComparison, command, judged, told
+from benchmarks.twins.told import ToldComparison, command, judged, matched, told
 
 ALONE = HERE / "planted" / "alone.json"
 """In which outputs each difference shows alone; ``--stage alone`` writes it, in minutes."""
@@ -22,7 +22,7 @@ ALONE = HERE / "planted" / "alone.json"
 class TwinEffort:
     """How much is tried: random runs beside the fixed ones, logs of each firmware, seconds for a cause."""
 
-    examples: int = 0
+    examples: int = 60
     logs: int = 50
     seconds: float = 20.0
     further: int = 15
@@ -251,10 +251,12 @@ def _diagnosed(
             candidates = [one for one in firmware.differences if one.id in exposed and _in_part(one, part)]
             lines.append(f"  {part['part']}{'' if part['cause'] else ' (some cases only)'}: {said}")
             lines += [f"    planted: {one.id}: {one.says}" for one in candidates]
-            named = [one for one in candidates if any(names(one, change) for change in changes)]
-            found |= {one.id: said for one in named}
-            false += sum(not any(names(one, change) for one in candidates) for change in changes)
-            lines += [f"    RIGHT {one.id}" for one in named]
+            named = matched(
+                {one.id: [n for n, change in enumerate(changes) if names(one, change)] for one in candidates}
+            )
+            found |= dict.fromkeys(named, said)
+            false += len(changes) - len(named)
+            lines += [f"    RIGHT {name}" for name in named]
     yield (
         f"diagnose: {len(found)} of {len(exposed)} causes named right in {parts} parts, {false} changes of "
         f"no planted difference ({monotonic() - began:.0f} s, exit code {done.returncode})"
