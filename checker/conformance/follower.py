@@ -1,6 +1,6 @@
 """Is a recording a run of the charts?  Its parts are followed; what differs is grouped by cause."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
@@ -12,6 +12,8 @@ from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 
 Column = Sequence[Raw | None]
+Watch = Callable[[Tracker, TrackedRow, LogMismatch | None], None]
+"""Told of every row of every part, as it is followed."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,7 @@ class Behaviour:
 
 
 class BoardFollower:
-    """Follows all parts of a board through a log."""
+    """Follows all parts of a board through a log; ``watch`` sees each part's rows."""
 
     def __init__(
         self,
@@ -39,7 +41,9 @@ class BoardFollower:
         tolerance: Mapping[str, float],
         seen: frozenset[str],
         from_power_up: bool,
+        watch: Watch | None = None,
     ) -> None:
+        self._watch = watch
         self._trackers = [Tracker(cone, tolerance, from_power_up) for cone in parts]
         self._outputs = {o.var.name: o.name for cone in parts for o in cone.outputs}
         self._known = seen | set(self._outputs)
@@ -83,7 +87,10 @@ class BoardFollower:
             inputs = fetch.inputs(i, self._before, now)
             logged = tuple([c[i] for c in fetch.outputs])
             before = tracker.required
-            mismatch = tracker.step(TrackedRow(tick, block.lines[i], missing, inputs, logged))
+            row = TrackedRow(tick, block.lines[i], missing, inputs, logged)
+            mismatch = tracker.step(row)
+            if self._watch is not None:
+                self._watch(tracker, row, mismatch)
             self._changes.note(tracker, before, mismatch)
             if mismatch is not None:
                 found.append(mismatch)
