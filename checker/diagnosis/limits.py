@@ -73,13 +73,14 @@ class NumberSlot:
     def change(self, op: Op | None, raw: Raw) -> ChartChange:
         """The number as another one."""
         value = raw * self.sort.resolution
-        new = self._named(op, value)
-        old = self._named(self.op, self.drawn * self.sort.resolution)
+        drawn = self.drawn * self.sort.resolution
+        new, old = self._named(op, value), self._named(self.op, drawn)
         kind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
         where = "" if self.at == "everywhere" else f" ({self.at})"
-        text = f"{new} instead of {old}{where}"
+        text = f"{'a limit' if op else 'a number'} of {new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
-        far = digits(value) + (op is not self.op) / 4 + (self.at != "everywhere") / 8
+        moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
+        far = digits(value) + float(moved) / 4 + (op is not self.op) / 4 + (self.at != "everywhere") / 8
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
             lambda: self._with(op, self._const(raw)), far / 100,
@@ -89,7 +90,7 @@ class NumberSlot:
         unit = f" {self.sort.unit}" if self.sort.unit else ""
         if op is None:
             return f"{number_text(value)}{unit}"
-        return f"a limit of {number_text(value)}{unit}, {'closed' if op in CLOSED else 'open'},"
+        return f"{number_text(value)}{unit}, {'closed' if op in CLOSED else 'open'},"
 
     def _formula(self, op: Op | None, raw: Raw) -> str:
         value = number_text(Fraction(raw) * self.sort.resolution)
@@ -190,7 +191,7 @@ def digits(value: Fraction) -> float:
     if scaled.denominator > 1:
         return 12.0
     text = str(int(scaled)).rstrip("0")
-    return len(text) - (0.5 if text.endswith("5") else 0) + places / 10
+    return len(text) - (0.5 if text.endswith("5") and len(text) > 1 else 0) + places / 2
 
 
 def simplest(low: Fraction, high: Fraction, closed_low: bool, closed_high: bool) -> Fraction | None:
