@@ -75,6 +75,8 @@ class ChartChange:
     make: Callable[[], System]
     distance: float = 0.0
     """Among changes of one kind: how far from what is drawn."""
+    note: str = ""
+    """What else would do."""
 
     @property
     def key(self) -> tuple[str, ...]:

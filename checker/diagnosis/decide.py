@@ -12,6 +12,7 @@ from rovercheck.checker.conformance.program import Known, NeededInputs
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.system.partition import expressions
+from rovercheck.spec_model.abstraction import Output
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Var
 from rovercheck.spec_model.lang.walk import nodes
@@ -49,10 +50,19 @@ Timed = tuple[int, dict[str, Raw]]
 
 
 class RunSearch:
-    """Looks for runs in which two changed parts differ: values at and beside every limit of both."""
+    """Looks for runs in which two parts differ: with values at and beside every limit of both.
 
-    def __init__(self, evidence: PartEvidence, one: LogCone, other: LogCone) -> None:
-        self._cones = (one, other)
+    ``seen``: an output with the values that the two give it, which would be nothing new; measured ones are.
+    """
+
+    def __init__(
+        self,
+        evidence: PartEvidence,
+        one: LogCone,
+        other: LogCone,
+        seen: frozenset[tuple[object, ...]] = frozenset(),
+    ) -> None:
+        self._cones, self._seen = (one, other), seen
         self._outputs = [o for o in one.outputs if o.name in {p.name for p in other.outputs}]
         self._vars: dict[str, Var] = {v.name: v for c in self._cones for v in c.system.inputs}
         self._values = {name: self._of(evidence, v) for name, v in self._vars.items()}
@@ -102,9 +112,16 @@ class RunSearch:
         for o in self._outputs:
             sort = o.var.domain.sort
             close = float(Fraction(1, 10**6) / sort.resolution) if isinstance(sort, Num) else None
-            if differs(one[o.name], other[o.name], close):
+            if differs(one[o.name], other[o.name], close) and not self._is_seen(o, one, other):
                 return o.name
         return ""
+
+    def _is_seen(self, o: Output, one: dict[str, Raw | None], other: dict[str, Raw | None]) -> bool:
+        if not self._seen:
+            return False
+        if isinstance(o.var.domain.sort, Num):
+            return any(o.name == name for name, *_ in self._seen)
+        return (o.name, one[o.name], other[o.name]) in self._seen
 
     def _smaller(self, blocks: list[Timed]) -> list[Timed]:
         """Fewer blocks, shorter ones, fewer changes, as long as the outputs differ."""
@@ -140,7 +157,7 @@ class RunSearch:
         one, other = self._last
         name = self._apart(one, other)
         domain = next(o for o in self._outputs if o.name == name).var.domain
-        held, before = [], dict[str, Raw]()
+        held, before = [], {n: v.init for n, v in self._vars.items()}
         for length, values in blocks:
             changes = tuple(
                 (n, shown(self._vars[n].domain, v)) for n, v in values.items() if before.get(n) != v

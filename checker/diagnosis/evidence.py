@@ -13,7 +13,6 @@ from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
 from rovercheck.spec_model.abstraction import Board
 
-
 Options = dict[str, dict[int, tuple[Raw | None, ...]]]
 """The values that an input may have had, by its name and the row."""
 

@@ -84,7 +84,8 @@ TOLD = {
 
 
 def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
-    text = TOLD[kind].format(old=one.old, new=one.new)
+    word = "signal" if kind == "exchanged" and one.new not in part.read else kind
+    text = TOLD[word].format(old=one.old, new=one.new)
     if one.site not in ("everywhere", "memory", "buffers"):
         text += f" ({one.site})"
     make = partial(_with_part, system, part, one.part)
@@ -93,6 +94,11 @@ def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeK
 
 def _with_part(system: System, old: Chart | Block, new: Chart | Block) -> System:
     return kept(system, in_system(system, old.name, lambda _: new))
+
+
+def signals_of(board: Board) -> dict[str, Var]:
+    """The signals of a board that a chart may read by mistake, by the name of the variable."""
+    return {**board.system.inputs, **{o.var.name: o.var for o in board.outputs}}
 
 
 def timer_changes(system: System, steps: Sequence[int], only: frozenset[str]) -> Iterator[ChartChange]:
@@ -105,16 +111,20 @@ def timer_changes(system: System, steps: Sequence[int], only: frozenset[str]) ->
                 yield replace(change, distance=nearer + number / 1e6)
 
 
-def delay_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:
-    """Values late, old, held or never renewed."""
+def delay_changes(
+    system: System, only: frozenset[str], outputs: frozenset[str] = frozenset()
+) -> Iterator[ChartChange]:
+    """Values late, old, held or never renewed; those of ``outputs`` are nearer than what lies inside."""
     kinds: Mapping[str, ChangeKind] = {
         "late": "late", "stale": "stale", "held": "held", "frozen": "frozen", "unread": "unread"
     }  # fmt: skip
     for one in delays(system):
         if one.part in only:
+            inside = one.kind in ("late", "held") and one.signal not in outputs
             yield ChartChange(
-                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make
-            )
+                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make,
+                0.5 if inside else 0.0,
+            )  # fmt: skip
 
 
 def _told(one: Delay) -> str:
@@ -230,6 +240,6 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 
 __all__ = [
-    "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "timer_changes",
+    "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of", "timer_changes",
     "written_changes",
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Numbers of a chart with other values: a chart is lowered once with a number left open, then values are tried.
+"""Numbers of a chart with other values: it is lowered once with a number left open, then values are tried.
 
 Values come from the recordings: a limit lies between two values that were met, of which one was on the other
 side than drawn.  Of all numbers in between the one with the fewest digits is told.
@@ -38,6 +38,10 @@ CLOSED = (Op.LE, Op.GE)
 OPPOSITE = {Op.LT: Op.GE, Op.GE: Op.LT, Op.LE: Op.GT, Op.GT: Op.LE}
 
 
+Gap = tuple[Fraction, Fraction]
+"""Two successive values that were met, raw."""
+
+
 @dataclass(frozen=True)
 class NumberSlot:
     """A number of a chart that may have another value.
@@ -70,8 +74,8 @@ class NumberSlot:
         domain = fixed(-high, high, self.sort.resolution, str(self.sort.unit))
         return self._with(op, Var(PARAMETER, domain, 0))
 
-    def change(self, op: Op | None, raw: Raw) -> ChartChange:
-        """The number as another one."""
+    def change(self, op: Op | None, raw: Raw, between: Gap | None = None) -> ChartChange:
+        """The number as another one; ``between``: the values met between which it lies."""
         value = raw * self.sort.resolution
         drawn = self.drawn * self.sort.resolution
         new, old = self._named(op, value), self._named(self.op, drawn)
@@ -80,11 +84,17 @@ class NumberSlot:
         text = f"{'a limit' if op else 'a number'} of {new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
-        far = digits(value) + float(moved) / 4 + (op is not self.op) / 4 + (self.at != "everywhere") / 8
+        far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 + (self.at != "everywhere") / 8
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
-            lambda: self._with(op, self._const(raw)), far / 100,
+            lambda: self._with(op, self._const(raw)), far / 100, self._between(between),
         )  # fmt: skip
+
+    def _between(self, gap: Gap | None) -> str:
+        if gap is None or gap[0] == gap[1]:
+            return ""
+        low, high = (number_text(end * self.sort.resolution) for end in gap)
+        return f"any limit between {low} and {high} explains the same"
 
     def _named(self, op: Op | None, value: Fraction) -> str:
         unit = f" {self.sort.unit}" if self.sort.unit else ""
@@ -164,7 +174,7 @@ def _everywhere(system: System, part: Chart | Block, slot: NumberSlot) -> Number
         def change(node: Expr) -> Expr:
             if not (isinstance(node, Apply) and node.op in COMPARISONS and len(node.args) == 2):
                 return node
-            if not any(isinstance(a, Const) for a in node.args) or all(isinstance(a, Const) for a in node.args):
+            if sum(isinstance(a, Const) for a in node.args) != 1:
                 return node
             here, number, found = _normal(node)
             if found not in OPPOSITE or number.value != old.value or number.sort != old.sort:
@@ -259,9 +269,11 @@ class MetValues:
         return Fraction(evaluate(formula, computed(at)))
 
 
-def values_of(slot: NumberSlot, met: MetValues, factors: Iterable[Fraction]) -> Iterator[tuple[Op | None, Fraction]]:
-    """Operators and raw values for a number, the likeliest first, each once."""
-    found: dict[tuple[Op | None, Fraction], None] = {}
+def values_of(
+    slot: NumberSlot, met: MetValues, factors: Iterable[Fraction]
+) -> Mapping[tuple[Op | None, Fraction], Gap | None]:
+    """Operators and raw values for a number, the likeliest first, with the values met on both sides."""
+    found: dict[tuple[Op | None, Fraction], Gap | None] = {}
     if slot.op is None or slot.left is None:
         for value in _constants(slot, factors):
             found[None, value] = None
@@ -270,13 +282,13 @@ def values_of(slot: NumberSlot, met: MetValues, factors: Iterable[Fraction]) -> 
             found[slot.op, value] = None
     else:
         found[BESIDE[slot.op], slot.drawn] = None
-        for value in _limits(slot, met):
-            found[value] = None
+        for op, value, gap in _limits(slot, met):
+            found.setdefault((op, value), gap)
     found.pop((slot.op, slot.drawn), None)
-    yield from found
+    return found
 
 
-def _limits(slot: NumberSlot, met: MetValues) -> Iterator[tuple[Op, Fraction]]:
+def _limits(slot: NumberSlot, met: MetValues) -> Iterator[tuple[Op, Fraction, Gap | None]]:
     assert slot.left is not None and slot.op is not None
     every, recent = met.of(slot.left)
     size = slot.sort.resolution
@@ -292,11 +304,11 @@ def _limits(slot: NumberSlot, met: MetValues) -> Iterator[tuple[Op, Fraction]]:
                 upper = op in (Op.LT, Op.GE)
                 nice = simplest(low * size, high * size, not upper, upper)
                 if nice is not None:
-                    yield op, nice / size
+                    yield op, nice / size, (low, high)
     if not every:  # a formula of what nothing tells: timers and counters
         for value in _constants(slot, ()):
             for op in (slot.op, BESIDE[slot.op]):
-                yield op, value
+                yield op, value, None
 
 
 def _gaps(every: Sequence[Fraction], value: Fraction, drawn: Fraction) -> list[tuple[Fraction, Fraction]]:
@@ -310,9 +322,36 @@ def _gaps(every: Sequence[Fraction], value: Fraction, drawn: Fraction) -> list[t
 
 
 NICE = tuple(
-    Fraction(n) for n in ("0", "1/10", "1/5", "1/4", "3/10", "2/5", "1/2", "3/5", "7/10", "3/4", "4/5", "9/10",
-                          "11/10", "6/5", "5/4", "3/2", "7/4", "2", "5/2", "3", "4", "5", "10", "-1")
-)  # fmt: skip
+    map(
+        Fraction,
+        [
+            "0",
+            "1/10",
+            "1/5",
+            "1/4",
+            "3/10",
+            "2/5",
+            "1/2",
+            "3/5",
+            "7/10",
+            "3/4",
+            "4/5",
+            "9/10",
+            "11/10",
+            "6/5",
+            "5/4",
+            "3/2",
+            "7/4",
+            "2",
+            "5/2",
+            "3",
+            "4",
+            "5",
+            "10",
+            "-1",
+        ],
+    )
+)
 
 
 def _constants(slot: NumberSlot, factors: Iterable[Fraction]) -> Iterator[Fraction]:

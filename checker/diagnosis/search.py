@@ -7,6 +7,8 @@ and another one is looked for on top of it, up to three.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
+from itertools import pairwise
 from time import monotonic
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -18,6 +20,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     extra_changes,
     mutant_changes,
     rewrite_changes,
+    signals_of,
     timer_changes,
     written_changes,
 )
@@ -124,10 +127,10 @@ class _Search:
     def _level(self, system: System, before: tuple[ChartChange, ...]) -> None:
         only = frozenset(part.name for part in parts(system.components))
         self._limits(system, before, only)
-        changes = self._changes(system, only, bool(before))
+        changes = self._changes(system, only)
         changes.sort(key=lambda c: c.nearness)
         self._found.of += len(changes)
-        for number, change in enumerate(changes):
+        for change in changes:
             if self._clock() > self._until:
                 return
             self._found.tried += 1
@@ -141,22 +144,20 @@ class _Search:
                 self._found.tried += 1
                 self._try(change, before)
 
-    def _changes(self, system: System, only: frozenset[str], changed: bool) -> list[ChartChange]:
+    def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
         found: list[ChartChange] = []
         found += written_changes(self._evidence.group.board, system)
         found += timer_changes(system, self._durations(), only)
         found += mutant_changes(system)
         found += rewrite_changes(system, self._signals(), only)
-        found += delay_changes(system, only)
+        outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
+        found += delay_changes(system, only, outputs)
         return found
 
     def _signals(self) -> dict[str, Var]:
-        """What the part might read by mistake: what is recorded, and the signals of the board."""
-        board = self._evidence.group.board
-        read = board.system.inputs
+        """What the part might read by mistake, as far as it is recorded."""
         known = {n for run in self._evidence.runs for n in run.columns}
-        written = {o.var.name: o.var for o in board.outputs}
-        return {n: v for n, v in {**read, **written}.items() if n in known}
+        return {n: v for n, v in signals_of(self._evidence.group.board).items() if n in known}
 
     def _durations(self) -> list[int]:
         """How many steps before a case something of the part changed."""
@@ -224,20 +225,19 @@ class _Search:
     def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
         factors = self._factors()
         for slot in number_slots(system, only):
-            values = list(values_of(slot, self._met, factors))
+            values = values_of(slot, self._met, factors)
             self._found.of += len(values)
             cones: dict[Op | None, LogCone | None] = {}
             explained = tried = 0
             for op, raw in sorted(values, key=lambda v: slot.change(*v).nearness):
+                made = partial(slot.change, op, raw, values[op, raw])
                 if self._clock() > self._until:
                     return
                 self._found.tried, tried = self._found.tried + 1, tried + 1
                 if op not in cones:
                     cones[op] = self._opened(slot, op)
                 cone = cones[op]
-                if cone is not None and self._judge(
-                    cone, lambda op=op, raw=raw: slot.change(op, raw), before, None, (PARAMETER, raw)
-                ):
+                if cone is not None and self._judge(cone, made, before, None, (PARAMETER, raw)):
                     explained += 1
                 if explained >= 2:  # of one limit the two simplest say enough
                     self._found.of -= len(values) - tried
@@ -271,7 +271,7 @@ def _ratio(wanted: Raw, got: Raw) -> Iterator[tuple[Fraction, None]]:
 def _ages(cells: Sequence[Raw | None]) -> bool:
     """Whether a column changes in most rows."""
     some = cells[:400]
-    return sum(a != b for a, b in zip(some, some[1:], strict=False)) > len(some) / 4
+    return sum(a != b for a, b in pairwise(some)) > len(some) / 4
 
 
 __all__ = ["ExplainingCause", "PartDiagnosis", "diagnosed"]

@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -13,6 +13,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     extra_changes,
     mutant_changes,
     rewrite_changes,
+    signals_of,
     timer_changes,
     written_changes,
 )
@@ -20,7 +21,6 @@ from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
-from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import System
 
@@ -82,8 +82,7 @@ def read_variant(file: Path) -> BoardVariant:
         raise VariantError(f'{file}: a variant holds board = "..." and tables [[change]], and nothing else.')
     found: list[WrittenChange] = []
     for number, row in enumerate(rows, 1):
-        good = isinstance(row, dict) and set(row) == set(KEYS) and all(isinstance(v, str) for v in row.values())
-        if not good:
+        if not (isinstance(row, dict) and set(row) == set(KEYS) and _are_texts(row.values())):
             raise VariantError(f"{file}, change {number}: write {', '.join(KEYS)}, each a text.")
         if row["kind"] not in KINDS:
             raise VariantError(
@@ -92,6 +91,10 @@ def read_variant(file: Path) -> BoardVariant:
             )
         found.append(WrittenChange(*(row[key] for key in KEYS)))
     return BoardVariant(board, tuple(found))
+
+
+def _are_texts(values: Iterable[object]) -> bool:
+    return all(isinstance(value, str) for value in values)
 
 
 def applied(board: Board, variant: BoardVariant, file: str = "the variant") -> Board:
@@ -103,14 +106,16 @@ def applied(board: Board, variant: BoardVariant, file: str = "the variant") -> B
         try:
             system = _with(board, system, change)
         except ModelError as error:
-            raise VariantError(f"{file}, change {number} ({change.kind} in {change.chart}): {error}") from error
+            where = f"{file}, change {number} ({change.kind} in {change.chart})"
+            raise VariantError(f"{where}: {error}") from error
     return replace(board, system=system)
 
 
 def _with(board: Board, system: System, change: WrittenChange) -> System:
     names = [part.name for part in parts(system.components)]
     if change.chart not in names:
-        raise ModelError(f"{board.name} has no chart or block of that name. {did_you_mean(change.chart, names)}")
+        near = did_you_mean(change.chart, names)
+        raise ModelError(f"{board.name} has no chart or block of that name. {near}")
     there: list[str] = []
     for one in _like(board, system, change):
         if one.key == change.key:
@@ -152,11 +157,6 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
             yield from rewrite_changes(system, signals_of(board), only)
 
 
-def signals_of(board: Board) -> dict[str, Var]:
-    """The signals of a board that a chart may read by mistake, by the name of the variable."""
-    return {**board.system.inputs, **{o.var.name: o.var for o in board.outputs}}
-
-
 def _numbers(system: System, only: frozenset[str], change: WrittenChange) -> Iterator[ChartChange]:
     for slot in number_slots(system, only):
         head, _, number = change.new.rpartition(" ")
@@ -180,4 +180,4 @@ def _steps(system: System, text: str) -> list[int]:
     return found
 
 
-__all__ = ["BoardVariant", "VariantError", "WrittenChange", "applied", "read_variant", "signals_of", "written"]
+__all__ = ["BoardVariant", "VariantError", "WrittenChange", "applied", "read_variant", "written"]

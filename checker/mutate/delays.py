@@ -29,7 +29,8 @@ def delays(system: System) -> Iterator[Delay]:
     """Every signal of every part late, old or held."""
     for part in parts(system.components):
         for name, v in part.written.items():
-            yield Delay("late", part.name, name, "in its step", "a step later", partial(late, system, part, v))
+            change = partial(late, system, part, v)
+            yield Delay("late", part.name, name, "in its step", "a step later", change)
         for name, v in part.read.items():
             if name in part.written:
                 continue

@@ -1,15 +1,18 @@
 """Every formula of a chart or block with its place, and the part with another formula in it."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
-from rovercheck.checker.mutate.charts import transition_lists
+from rovercheck.checker.mutate.charts import TransitionList, transition_lists
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.chart import Block, Chart, State
+from rovercheck.spec_model.lang.chart import Block, Chart, Path
 from rovercheck.spec_model.lang.edit import edit_at
 from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal
 
-Put = Callable[[Expr], Chart | Block]
+Put = Callable[[Any], Chart | Block]
+"""Makes the part with something else in one place."""
 
 
 @dataclass(frozen=True)
@@ -28,93 +31,84 @@ class FormulaPlace:
 def formula_places(part: Chart | Block) -> Iterator[FormulaPlace]:
     """Every formula of a part, in the order in which it is drawn."""
     if isinstance(part, Block):
-        yield from _in_actions("block", part.do, lambda new: _block(part, new))
+        yield from _in_actions("block", part.do, partial(_block, part))
         return
     for one in transition_lists(part):
         for number, segment in enumerate(one.segments):
-
-            def put(new: object, one=one, number=number) -> Chart:  # type: ignore[no-untyped-def]
-                return one.changed([new if i == number else s for i, s in enumerate(one.segments)])  # type: ignore[no-any-return]
-
-            site = f"{one.site}.{number + 1}"
+            put, site = partial(_segment, one, number), f"{one.site}.{number + 1}"
             if segment.guard is not None:
-                yield FormulaPlace(
-                    site, "guard", segment.guard, lambda e, s=segment, put=put: put(replace(s, guard=e))
-                )
-            yield from _in_actions(
-                site, segment.do, lambda new, s=segment, put=put: put(replace(s, do=new))
-            )
-            yield from _in_actions(
-                site, segment.then, lambda new, s=segment, put=put: put(replace(s, then=new))
-            )
+                yield FormulaPlace(site, "guard", segment.guard, _with(put, segment, "guard"))
+            yield from _in_actions(site, segment.do, _with(put, segment, "do"))
+            yield from _in_actions(site, segment.then, _with(put, segment, "then"))
     for path, state in part.states.items():
         for kind in ("entry", "during", "exit"):
-            actions: tuple[Action, ...] = getattr(state, kind)
             site = f"state/{'.'.join(path)}/{kind}"
-            yield from _in_actions(
-                site, actions, lambda new, path=path, kind=kind: _state(part, path, kind, new)
-            )
+            yield from _in_actions(site, getattr(state, kind), partial(_state, part, path, kind))
 
 
-def _block(part: Block, new: Sequence[Action]) -> Block:
+def _with(put: Put, thing: Any, name: str) -> Put:
+    """Puts something in place of a field of a thing."""
+    return lambda new: put(replace(thing, **{name: new}))
+
+
+def _block(part: Block, new: tuple[Action, ...]) -> Block:
     return Block(part.name, new, text=part.text, place=part.place)
 
 
-def _state(chart: Chart, path: tuple[str, ...], kind: str, new: tuple[Action, ...]) -> Chart:
-    def changed(state: State) -> State:
-        match kind:
-            case "entry":
-                return replace(state, entry=new)
-            case "during":
-                return replace(state, during=new)
-            case _:
-                return replace(state, exit=new)
-
-    return edit_at(chart, path, changed)
+def _segment(one: TransitionList, number: int, new: Any) -> Chart:
+    return one.changed([new if i == number else s for i, s in enumerate(one.segments)])
 
 
-def _in_actions(
-    site: str, actions: tuple[Action, ...], put: Callable[[tuple[Action, ...]], Chart | Block]
-) -> Iterator[FormulaPlace]:
+def _state(chart: Chart, path: Path, kind: str, new: tuple[Action, ...]) -> Chart:
+    changed: dict[str, Any] = {kind: new}
+    return edit_at(chart, path, lambda state: replace(state, **changed))
+
+
+def _in_actions(site: str, actions: tuple[Action, ...], put: Put) -> Iterator[FormulaPlace]:
     for number, action in enumerate(actions):
-
-        def one(new: Action, number: int = number) -> Chart | Block:
-            return put((*actions[:number], new, *actions[number + 1 :]))
-
+        one = partial(_nth, actions, number, put)
         if isinstance(action, Assign):
-            yield FormulaPlace(
-                site, action.var.name, action.value, lambda e, a=action, one=one: one(replace(a, value=e))
-            )
+            yield FormulaPlace(site, action.var.name, action.value, _with(one, action, "value"))
         elif isinstance(action, If):
-            yield FormulaPlace(
-                site, "if", action.condition, lambda e, a=action, one=one: one(replace(a, condition=e))
-            )
-            yield from _in_actions(
-                site, action.then, lambda new, a=action, one=one: one(replace(a, then=new))
-            )
-            yield from _in_actions(
-                site, action.otherwise, lambda new, a=action, one=one: one(replace(a, otherwise=new))
-            )
+            yield FormulaPlace(site, "if", action.condition, _with(one, action, "condition"))
+            yield from _in_actions(site, action.then, _with(one, action, "then"))
+            yield from _in_actions(site, action.otherwise, _with(one, action, "otherwise"))
 
 
-def nodes_in(formula: Expr) -> Iterator[tuple[Expr, Callable[[Expr], Expr]]]:
-    """Every node with what makes the formula with another node there; parents first."""
+def _nth(actions: tuple[Action, ...], number: int, put: Put, new: Action) -> Chart | Block:
+    return put((*actions[:number], new, *actions[number + 1 :]))
+
+
+Node = tuple[Expr, Callable[[Expr], Expr]]
+"""A node of a formula, and what makes the formula with another node there."""
+
+
+def nodes_in(formula: Expr) -> Iterator[Node]:
+    """Every node of a formula, parents first."""
     if not isinstance(formula, Named):
-        yield formula, lambda new: new
+        yield formula, _itself
     match formula:
         case Apply(_, args, _):
             for number, arg in enumerate(args):
                 for node, put in nodes_in(arg):
-
-                    def within(new: Expr, number: int = number, put: Callable[[Expr], Expr] = put) -> Expr:
-                        return replace(formula, args=(*args[:number], put(new), *args[number + 1 :]))
-
-                    yield node, within
+                    yield node, partial(_in_apply, formula, number, put)
         case Named(_, body):
             yield from nodes_in(body)  # what is changed is no longer what the name says
         case Temporal(_, arg, _, _) if arg is not None:
             for node, put in nodes_in(arg):
-                yield node, lambda new, put=put: replace(formula, arg=put(new))
+                yield node, partial(_in_temporal, formula, put)
 
 
-__all__ = ["FormulaPlace", "formula_places", "nodes_in"]
+def _itself(new: Expr) -> Expr:
+    return new
+
+
+def _in_apply(formula: Apply, number: int, put: Callable[[Expr], Expr], new: Expr) -> Expr:
+    return replace(formula, args=(*formula.args[:number], put(new), *formula.args[number + 1 :]))
+
+
+def _in_temporal(formula: Temporal, put: Callable[[Expr], Expr], new: Expr) -> Expr:
+    return replace(formula, arg=put(new))
+
+
+__all__ = ["FormulaPlace", "Node", "formula_places", "nodes_in"]

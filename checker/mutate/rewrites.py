@@ -12,7 +12,7 @@ from rovercheck.checker.mutate.charts import transition_lists
 from rovercheck.checker.mutate.formulas import TIMED
 from rovercheck.checker.mutate.places import FormulaPlace, formula_places, nodes_in
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.chart import Block, Chart, Path, Transition
+from rovercheck.spec_model.lang.chart import Block, Chart, Path
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.edit import everywhere, in_actions, in_block, in_expressions
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Temporal, Var
@@ -264,7 +264,10 @@ def extra_transitions(chart: Chart, conditions: Sequence[Expr]) -> Iterator[Rewr
                     )  # fmt: skip
 
 
-def numbers_in(part: Chart | Block) -> Iterator[tuple[FormulaPlace, Expr, Callable[[Expr], Expr], Apply | None]]:
+Written = tuple[FormulaPlace, Expr, Callable[[Expr], Expr], Apply | None]
+
+
+def numbers_in(part: Chart | Block) -> Iterator[Written]:
     """Every number that is written in a part, with the comparison that it is the limit of, if it is one."""
     for place in formula_places(part):
         inside: set[int] = set()
