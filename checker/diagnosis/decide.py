@@ -77,9 +77,8 @@ class RunSearch:
         return None
 
     def _drawn(self, random: Random) -> Iterator[Timed]:
-        steps, at = 0, {n: v.init for n, v in self._vars.items()}
-        at = {n: v if v in self._vars[n].domain else self._values[n][0] for n, v in at.items()}
-        held: dict[str, Raw] = dict(at)
+        steps = 0
+        held: dict[str, Raw] = {n: v.init for n, v in self._vars.items()}
         while steps < STEPS:
             for name in self._vars:
                 if random.random() < 0.4:
@@ -157,7 +156,8 @@ class RunSearch:
         one, other = self._last
         name = self._apart(one, other)
         domain = next(o for o in self._outputs if o.name == name).var.domain
-        held, before = [], {n: v.init for n, v in self._vars.items()}
+        held: list[HeldInputs] = []
+        before: dict[str, Raw] = {n: v.init for n, v in self._vars.items()}
         for length, values in blocks:
             changes = tuple(
                 (n, shown(self._vars[n].domain, v)) for n, v in values.items() if before.get(n) != v

@@ -120,10 +120,9 @@ def delay_changes(
     }  # fmt: skip
     for one in delays(system):
         if one.part in only:
-            inside = one.kind in ("late", "held") and one.signal not in outputs
+            far = 0.0 if one.signal in outputs else 0.5 if one.kind in ("late", "held") else 0.25
             yield ChartChange(
-                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make,
-                0.5 if inside else 0.0,
+                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make, far,
             )  # fmt: skip
 
 

@@ -8,12 +8,14 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from math import ceil, floor, log10
 
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.mutate.formulas import BESIDE
+from rovercheck.checker.mutate.places import FormulaPlace
 from rovercheck.checker.mutate.rewrites import mapped, numbers_in, same_shape
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.abstraction.signals import computed
@@ -79,7 +81,7 @@ class NumberSlot:
         value = raw * self.sort.resolution
         drawn = self.drawn * self.sort.resolution
         new, old = self._named(op, value), self._named(self.op, drawn)
-        kind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
+        kind: ChangeKind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
         where = "" if self.at == "everywhere" else f" ({self.at})"
         text = f"{'a limit' if op else 'a number'} of {new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
@@ -126,26 +128,29 @@ def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:
 def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
     same: dict[object, list[NumberSlot]] = {}
     for place, node, put, limit in numbers_in(part):
+        at = f"{place.site} {place.role}"
         if limit is None:
             assert isinstance(node, Const)
-
-            def plain(_: Op | None, new: Expr, place=place, put=put) -> Chart | Block:  # type: ignore[no-untyped-def]
-                return place.put(put(new))  # type: ignore[no-any-return]
-
-            yield NumberSlot(part.name, f"{place.site} {place.role}", node, None, None, plain, system)
+            yield NumberSlot(part.name, at, node, None, None, partial(_plain, place, put), system)
             continue
         left, old, op = _normal(limit)
-
-        def one(op: Op | None, new: Expr, place=place, put=put, left=left) -> Chart | Block:  # type: ignore[no-untyped-def]
-            return place.put(put(_compared(op, left, new)))  # type: ignore[no-any-return]
-
-        slot = NumberSlot(part.name, f"{place.site} {place.role}", old, op, left, one, system)
+        slot = NumberSlot(part.name, at, old, op, left, partial(_compared_at, place, put, left), system)
         yield slot
         if op in OPPOSITE:
             same.setdefault((structure(left), old.value, old.sort), []).append(slot)
     for found in same.values():
         if len(found) > 1:
             yield _everywhere(system, part, found[0])
+
+
+def _plain(place: FormulaPlace, put: Callable[[Expr], Expr], _: Op | None, new: Expr) -> Chart | Block:
+    return place.put(put(new))
+
+
+def _compared_at(
+    place: FormulaPlace, put: Callable[[Expr], Expr], left: Expr, op: Op | None, new: Expr
+) -> Chart | Block:
+    return place.put(put(_compared(op, left, new)))
 
 
 def _normal(limit: Apply) -> tuple[Expr, Const, Op]:
@@ -352,6 +357,7 @@ NICE = tuple(
         ],
     )
 )
+"""By what a number may have been multiplied."""
 
 
 def _constants(slot: NumberSlot, factors: Iterable[Fraction]) -> Iterator[Fraction]:

@@ -119,13 +119,12 @@ def _key(cause: ExplainingCause) -> tuple[object, ...]:
 def _told(name: str, group: Sequence[PartDiagnosis]) -> DiagnosedPart:
     first = group[0]
     runs = tuple(run.run.name for one in group for run in one.evidence.deviating)
-    cause, *others = first.causes or [None]
+    cause, others = (first.causes[0], first.causes[1:]) if first.causes else (None, [])
     rivals: list[RivalCause] = []
     prediction = None
     if cause is not None:
         for rival in others[:MOST_RIVALS]:
-            if rival is not None:
-                rivals.append(RivalCause(rival, RunSearch(first.evidence, cause.cone, rival.cone).found()))
+            rivals.append(RivalCause(rival, RunSearch(first.evidence, cause.cone, rival.cone).found()))
         seen = frozenset(_seen(group))
         prediction = RunSearch(first.evidence, first.evidence.cone, cause.cone, seen).found()
     return DiagnosedPart(
