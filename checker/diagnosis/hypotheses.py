@@ -122,7 +122,8 @@ def delay_changes(
         if one.part in only:
             far = 0.0 if one.signal in outputs else 0.5 if one.kind in ("late", "held") else 0.25
             yield ChartChange(
-                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make, far,
+                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make,
+                far,
             )  # fmt: skip
 
 

@@ -326,37 +326,8 @@ def _gaps(every: Sequence[Fraction], value: Fraction, drawn: Fraction) -> list[t
     return [(below, value), (value, above)]
 
 
-NICE = tuple(
-    map(
-        Fraction,
-        [
-            "0",
-            "1/10",
-            "1/5",
-            "1/4",
-            "3/10",
-            "2/5",
-            "1/2",
-            "3/5",
-            "7/10",
-            "3/4",
-            "4/5",
-            "9/10",
-            "11/10",
-            "6/5",
-            "5/4",
-            "3/2",
-            "7/4",
-            "2",
-            "5/2",
-            "3",
-            "4",
-            "5",
-            "10",
-            "-1",
-        ],
-    )
-)
+_TIMES = ".1 .2 .25 .3 .4 .5 .6 .7 .75 .8 .9 1.1 1.2 1.25 1.5 1.75 2 2.5 3 4 5 10 0 -1"
+NICE = tuple(map(Fraction, _TIMES.split()))
 """By what a number may have been multiplied."""
 
 
