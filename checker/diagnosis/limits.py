@@ -83,7 +83,7 @@ class NumberSlot:
         new, old = self._named(op, value), self._named(self.op, drawn)
         kind: ChangeKind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
         where = "" if self.at == "everywhere" else f" ({self.at})"
-        text = f"{'a limit' if op else 'a number'} of {new} instead of {old}{where}"
+        text = f"a limit of {new}, instead of {old}{where}" if op else f"{new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
         far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 + (self.at != "everywhere") / 8
@@ -102,7 +102,7 @@ class NumberSlot:
         unit = f" {self.sort.unit}" if self.sort.unit else ""
         if op is None:
             return f"{number_text(value)}{unit}"
-        return f"{number_text(value)}{unit}, {'closed' if op in CLOSED else 'open'},"
+        return f"{number_text(value)}{unit}, {'closed' if op in CLOSED else 'open'}"
 
     def _formula(self, op: Op | None, raw: Raw) -> str:
         value = number_text(Fraction(raw) * self.sort.resolution)

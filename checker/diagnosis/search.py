@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
-from time import monotonic
+from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.recording import Raw
@@ -34,7 +34,7 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import System
 
 SECONDS = 60.0
-"""How long the causes of one part are looked for."""
+"""How long the causes of one part are looked for, in seconds of the processor."""
 
 MOST_CHANGES = 3
 BROAD = 4
@@ -80,7 +80,7 @@ class PartDiagnosis:
         return self.tried == self.of
 
 
-def diagnosed(evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = monotonic) -> PartDiagnosis:
+def diagnosed(evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = process_time) -> PartDiagnosis:
     """The causes of what one part does otherwise than the charts."""
     found = PartDiagnosis(evidence)
     start = clock()

@@ -123,7 +123,7 @@ def _with(board: Board, system: System, change: WrittenChange) -> System:
         if one.at == change.at and one.chart == change.chart:
             there.append(one.old)
     if not there:
-        raise ModelError(f"there is no {KINDS[change.kind]} to make at {change.at!r}.")
+        raise ModelError(f"there is nothing for {KINDS[change.kind]} at {change.at!r}.")
     if change.old not in there:
         raise ModelError(f"at {change.at!r} is `{there[0]}`, and not `{change.old}`.")
     raise ModelError(f"at {change.at!r}, `{change.old}` cannot become `{change.new}`.")

@@ -4,14 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from random import Random
 
+from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
 from rovercheck.checker.conformance.recording import LogBlock, Raw
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector, RecordedRun
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
 from rovercheck.spec_model.abstraction import Board, Value, boards
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.edit import in_system
-from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
 
 Row = dict[str, Value]
@@ -61,16 +61,18 @@ def restless(board: str, seed: int, steps: int = 700) -> tuple[Row, ...]:
 
 
 def recorded(board: str, system: System, rows: Sequence[Mapping[str, Value]], name: str) -> RecordedRun:
-    """A run of a changed board, as the interpreter of charts goes through it."""
-    own = boards()[board]
-    reader, charts = own.reader(), Interpreter(system, measured=True)
+    """A run of a changed board, as its lowered charts go through it."""
+    own, lowered = boards()[board], lower(system)
+    reader = own.reader()
+    step = compiled(lowered, [ProgramOutput(o.var, o.unless) for o in own.outputs])
     values: dict[str, list[Raw | None]] = {s.name: [s.raw(row[s.name]) for row in rows] for s in own.inputs}
     values |= {o.name: [] for o in own.outputs}
+    state: Known = tuple(v.init for v in lowered.variables)
     for row in rows:
-        charts.step(reader.step(row))
-        after = charts.valuation()
-        for o in own.outputs:
-            values[o.name].append(None if evaluate(o.unless, after) else after[o.var.name])
+        seen = reader.step(row)
+        state, given = step(state, tuple(seen[v.name] for v in lowered.inputs))
+        for o, value in zip(own.outputs, given, strict=True):
+            values[o.name].append(value)
     steps = range(1, len(rows) + 1)
     block = LogBlock([n + 1 for n in steps], list(steps), [0] * len(rows), values)
     return RecordedRun(name, frozenset(values), True, lambda: [block])

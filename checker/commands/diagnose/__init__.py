@@ -45,7 +45,7 @@ class DiagnoseOptions:
     default=60.0,
     show_default=True,
     metavar="S",
-    help="How long the causes of one part are looked for.",
+    help="How long the causes of a part are looked for.",
 )
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @quietly
