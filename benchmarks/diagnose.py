@@ -2,8 +2,8 @@
 
     python -m benchmarks.diagnose [changes of each board] [seed] [seconds for a part] [board]
 
-One change is planted in the charts of a board, some of every kind; the board so changed is run on inputs that
-``compare`` tries and on those of drives.  Of the runs that show it at most three are diagnosed, together with
+One change is planted in the charts of a board, some of every kind; the board so changed is run on inputs
+that ``compare`` tries and on those of drives.  Of the runs that show it at most three are diagnosed, together with
 two that do not.  The cause is right if it is the planted change, or if no run of the part tells the two apart.
 """
 
@@ -230,5 +230,5 @@ def main(count: int = 40, seed: int = 18, seconds: float = 60.0, only: str = "")
 
 
 if __name__ == "__main__":
-    numbers = sys.argv[1:]
-    main(*map(int, numbers[:2]), *map(float, numbers[2:3]), *numbers[3:4])
+    given = [*sys.argv[1:], *("40", "18", "60", "")[len(sys.argv) - 1 :]]
+    main(int(given[0]), int(given[1]), float(given[2]), given[3])
