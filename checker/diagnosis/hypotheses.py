@@ -49,7 +49,9 @@ def mutant_changes(system: System, only: frozenset[str] | None = None) -> Iterat
 
 def _of_mutant(one: Mutant) -> ChartChange:
     kind, at = OPERATORS[one.operator], one.id.partition("/")[2]
-    return ChartChange(kind, one.part, at, "as drawn", one.text, one.text, one.make)
+    # comparisons with a number are limits, which are tried with all their values and told as such
+    distance = 0.05 if kind == "comparison" else 0.0
+    return ChartChange(kind, one.part, at, "as drawn", one.text, one.text, one.make, distance)
 
 
 def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[str]) -> Iterator[ChartChange]:

@@ -86,7 +86,8 @@ class NumberSlot:
         text = f"a limit of {new}, instead of {old}{where}" if op else f"{new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
-        far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 + (self.at != "everywhere") / 8
+        far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 if raw != self.drawn else 0.0
+        far += (self.at != "everywhere") / 8
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
             lambda: self._with(op, self._const(raw)), far / 100, self._between(between),
