@@ -43,20 +43,20 @@ def inputs(board: str, held: Held) -> list[Row]:
 
 
 @cache
-def restless(board: str, seed: int, steps: int = 700) -> tuple[Row, ...]:
+def restless(board: str, seed: int, steps: int = 450) -> tuple[Row, ...]:
     """Random inputs, held for a while: values at and beside those of the model."""
     random, signals = Random(seed), boards()[board].inputs
     held: list[tuple[int, Row]] = [(2, {})]
     while sum(n for n, _ in held) < steps:
         changes: Row = {}
         for s in signals:
-            if not s.stamp and random.random() < 0.15:
+            if not s.stamp and random.random() < 0.3:
                 raw = random.choice(s.domain.values)
                 number = raw * getattr(s.domain.sort, "resolution", 1)
                 changes[s.name] = int(number) if number == int(number) else float(number)
-            if not s.stamp and random.random() < 0.15 and s.name in CALM[board]:
+            if not s.stamp and random.random() < 0.3 and s.name in CALM[board]:
                 changes[s.name] = CALM[board][s.name]
-        held.append((random.choice((1, 1, 2, 3, 5, 8, 20, 60, 210)), changes))
+        held.append((random.choice((1, 1, 1, 2, 2, 3, 5)), changes))
     return tuple(inputs(board, held))
 
 

@@ -116,7 +116,7 @@ def test_an_output_that_is_held_is_found() -> None:
         boards()["board1"].system, part, part.written["wheel_status_FL"], part.read["isMotionConsistent"], 0
     )
     told = "wheel_status_FL is held while not isMotionConsistent"
-    assert told in every_text(the_part(made, *RESTLESS))
+    assert told in list(every_text(the_part(made, *RESTLESS)))
 
 
 def every_text(part: DiagnosedPart) -> Iterator[str]:
