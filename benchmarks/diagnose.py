@@ -3,8 +3,9 @@
     python -m benchmarks.diagnose [changes of each board] [seed] [seconds for a part] [board]
 
 One change is planted in the charts of a board, some of every kind; the board so changed is run on inputs
-that ``compare`` tries and on those of drives.  Of the runs that show it at most three are diagnosed, together with
-two that do not.  The cause is right if it is the planted change, or if no run of the part tells the two apart.
+that ``compare`` tries and on those of drives.  Of the runs that show it at most three are diagnosed, together
+with two that do not.  The cause is right if it is the planted change, or if no run of the part tells the two
+apart.
 """
 
 import sys

@@ -17,7 +17,7 @@ from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Var
 from rovercheck.spec_model.lang.walk import nodes
 
-RUNS, STEPS = 400, 300
+RUNS, STEPS = 150, 300
 """Runs that are tried, and how long one may be."""
 HOLDS = (1, 1, 1, 2, 3, 5, 8, 13, 30, 60, 120, 210)
 SEED = 18

@@ -149,8 +149,15 @@ def test_an_exchanged_signal_is_found() -> None:
 
 
 def test_another_order_is_found() -> None:
+    """Each cause alone, and two at once: only then does the order matter."""
+    calm = {"crit_mask_b2": 0, "degr_mask_b2": 0, "hasNoFeedback_FL": False, "isMotionConsistent": True}
+    causes = (
+        {"crit_mask_b2": 15}, {"degr_mask_b2": 15}, {"crit_mask_b2": 15, "degr_mask_b2": 15},
+        {"hasNoFeedback_FL": True}, {"hasNoFeedback_FL": True, "isMotionConsistent": False},
+    )  # fmt: skip
+    both = inputs("board1", [(5, {}), *(b for cause in causes for b in ((5, cause), (5, calm)))])
     system = board1("Safety_state", lambda c: swap(c, "Rover_Safe_State"))
-    kind, chart, _ = first(system, *RESTLESS)
+    kind, chart, _ = first(system, both)
     assert (kind, chart) == ("order", "Safety_state")
 
 
