@@ -120,11 +120,48 @@ def written_by(component: Chart | Block) -> frozenset[str]:
     return frozenset(component.written).union(v.name for v in places)
 
 
+@dataclass(frozen=True)
+class ConeGroup:
+    """Parts of a board that are checked together: what is not told keeps them together.
+
+    ``outputs``: those of them that are compared, also where any value might be right.  ``cuts``: logged
+    outputs that others read in the log.
+    """
+
+    board: Board
+    parts: tuple[LogPart, ...]
+    every: tuple[LogPart, ...]
+    outputs: tuple[Output, ...]
+    seen: frozenset[str]
+    cuts: frozenset[str]
+
+    @property
+    def name(self) -> str:
+        last = self.outputs[-1].var.name
+        return next((p for p in reversed(self.parts) if last in p.writes), self.parts[-1]).component.name
+
+    @property
+    def system(self) -> System:
+        """The parts as a system of their own."""
+        whole = tuple(p.whole for p in self.parts)
+        return System(self.name, whole, tick_ms=self.board.system.tick_ms)
+
+    def cone(self, system: System | None = None) -> LogCone:
+        """What is followed of the parts, or of a changed ``system`` in their place."""
+        parts = self.parts if system is None else tuple(_parts(system.components, ()))
+        return _cone(self, self.system if system is None else system, parts)
+
+
 def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[LogCone, ...]:
     """The parts of a board in the order of execution.
 
     ``seen``: inputs of the charts that the log tells.  ``logged``: names of the outputs in the log.
     """
+    return tuple(group.cone() for group in cone_groups(board, seen, logged))
+
+
+def cone_groups(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[ConeGroup, ...]:
+    """The groups of parts of which the cones are made, in the same order."""
     parts = parts_of(board)
     outputs = tuple(o for o in board.outputs if o.name in logged)
     cuts = {o.var.name for o in outputs if _cut(o, parts)}
@@ -134,8 +171,13 @@ def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[L
         if not mixed:
             break
         cuts -= mixed
-    made = (_cone(board, [parts[i] for i in g], parts, outputs, seen, cuts) for g in groups)
-    return tuple(cone for cone in made if cone is not None)
+    found: list[ConeGroup] = []
+    for group in groups:
+        inside = tuple(parts[i] for i in group)
+        written = frozenset(name for part in inside for name in part.writes)
+        if own := tuple(o for o in outputs if o.var.name in written):
+            found.append(ConeGroup(board, inside, parts, own, seen, frozenset(cuts)))
+    return tuple(found)
 
 
 def parts_of(board: Board) -> tuple[LogPart, ...]:
@@ -177,9 +219,12 @@ def _writer(name: str, parts: Sequence[LogPart]) -> int:
     return next(i for i, p in enumerate(parts) if name in p.writes)
 
 
-def _read_before(name: str, group: Sequence[LogPart], parts: Sequence[LogPart]) -> bool:
+def _read_before(name: str, group: Sequence[LogPart], every: Sequence[LogPart]) -> bool:
     """Whether the group reads the variable before it is renewed."""
-    return any(name in p.reads and parts.index(p) < _writer(name, parts) for p in group)
+    order = {p.component.name: number for number, p in enumerate(every)}
+    last = max((order[p.component.name] for p in group if p.component.name in order), default=0)
+    writer = _writer(name, every)
+    return any(name in p.reads and order.get(p.component.name, last) < writer for p in group)
 
 
 def _read_twice(group: Sequence[int], parts: Sequence[LogPart], cuts: Iterable[str]) -> Iterator[str]:
@@ -191,28 +236,17 @@ def _read_twice(group: Sequence[int], parts: Sequence[LogPart], cuts: Iterable[s
             yield name
 
 
-def _cone(
-    board: Board,
-    group: Sequence[LogPart],
-    parts: Sequence[LogPart],
-    outputs: Sequence[Output],
-    seen: frozenset[str],
-    cuts: set[str],
-) -> LogCone | None:
-    written = frozenset(name for part in group for name in part.writes)
-    own = tuple(o for o in outputs if o.var.name in written)
-    if not own:
-        return None
-    named = next((p for p in reversed(group) if own[-1].var.name in p.writes), group[-1])
-    system = System(named.component.name, tuple(p.whole for p in group), tick_ms=board.system.tick_ms)
+def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone:
     lowered = replace(lower(system), checks=())
-    told = seen | cuts
-    free = frozenset(o.name for o in own if measured(o) and _between(_least(lowered, [o]), told))
-    own = tuple(o for o in own if o.name not in free)
+    told = group.seen | group.cuts
+    free = frozenset(o.name for o in group.outputs if measured(o) and _between(_least(lowered, [o]), told))
+    own = tuple(o for o in group.outputs if o.name not in free)
     least = _least(lowered, own)
-    before = frozenset(v.name for v in least.inputs if v.name in cuts and _read_before(v.name, group, parts))
-    charts = tuple(p.component for p in group if isinstance(p.component, Chart))
-    components = tuple(p.component for p in group)
+    before = frozenset(
+        v.name for v in least.inputs if v.name in group.cuts and _read_before(v.name, parts, group.every)
+    )
+    charts = tuple(p.component for p in parts if isinstance(p.component, Chart))
+    components = tuple(p.component for p in parts)
     return LogCone(least, own, charts, before, _between(least, told), tuple(sorted(free)), components)
 
 
@@ -253,4 +287,4 @@ def _computed_with(expr: Expr, found: set[str]) -> None:
         _computed_with(child, found)
 
 
-__all__ = ["LogCone", "LogPart", "cones", "measured", "parts_of"]
+__all__ = ["ConeGroup", "LogCone", "LogPart", "cone_groups", "cones", "measured", "parts_of"]

@@ -13,6 +13,8 @@ from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 
 Column = Sequence[Raw | None]
+Watch = Callable[[Tracker, TrackedRow, LogMismatch | None], None]
+"""Told of every row of every part, as it is followed."""
 
 
 Situation = tuple[str, str, tuple[str, ...], Raw | None]
@@ -40,7 +42,7 @@ class Behaviour:
 
 
 class BoardFollower:
-    """Follows all parts of a board through a recording.
+    """Follows all parts of a board through a recording; ``watch`` sees each part's rows.
 
     ``watched``: whether what is put to the test is told; ``may_freeze``: see ``Grouping``.
     """
@@ -51,10 +53,12 @@ class BoardFollower:
         tolerance: Mapping[str, float],
         seen: frozenset[str],
         from_power_up: bool,
+        watch: Watch | None = None,
         *,
         watched: bool = False,
         may_freeze: bool = True,
     ) -> None:
+        self._watch = watch
         self.heard: Callable[[Sequence[LogMismatch]], None] | None = None
         """Is told the mismatches of each row that has some."""
         self._met: dict[int, tuple[Tracker, BeliefOutcome]] | None = {} if watched else None
@@ -103,13 +107,16 @@ class BoardFollower:
             inputs = fetch.inputs(i, self._before, now)
             logged = tuple([c[i] for c in fetch.outputs])
             before = tracker.required
-            mismatch = tracker.step(TrackedRow(tick, block.lines[i], missing, inputs, logged))
+            row = TrackedRow(tick, block.lines[i], missing, inputs, logged)
+            mismatch = tracker.step(row)
+            if self._watch is not None:
+                self._watch(tracker, row, mismatch)
             self._changes.note(tracker, before, mismatch)
             if self._met is not None and tracker.exact is not None:
                 self._met[id(tracker.exact)] = tracker, tracker.exact
             if meaningless and (wrong := _meaningless(tracker, meaningless)):
                 others = mismatch.differences if mismatch is not None else ()
-                inputs_read = tracker.inputs(TrackedRow(tick, block.lines[i], missing, inputs, logged))
+                inputs_read = tracker.inputs(row)
                 mismatch = LogMismatch(
                     tick, block.lines[i], tracker.cone.name, (*wrong, *others), inputs_read
                 )

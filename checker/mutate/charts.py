@@ -101,7 +101,7 @@ class ChartFault:
 
 
 @dataclass(frozen=True)
-class _TransitionList:
+class TransitionList:
     """The transitions of a state or junction, or the default ones of a level, and how to change them."""
 
     site: str
@@ -121,7 +121,7 @@ def block_faults(block: Block, step_ms: int) -> Iterator[ChartFault]:
 def chart_faults(chart: Chart, step_ms: int) -> Iterator[ChartFault]:
     """Every fault of a chart."""
     fields = paired(chart.all_actions)
-    for transitions in _transitions(chart):
+    for transitions in transition_lists(chart):
         for number, segment in enumerate(transitions.segments):
             put = _putter(transitions, number)
             site = f"{transitions.site}.{number + 1}"
@@ -142,7 +142,7 @@ def chart_faults(chart: Chart, step_ms: int) -> Iterator[ChartFault]:
             yield from _regions(chart, path, state)
 
 
-def _transitions(chart: Chart) -> Iterator[_TransitionList]:
+def transition_lists(chart: Chart) -> Iterator[TransitionList]:
     """Every list of transitions of the chart."""
     for path, state in chart.states.items():
         of = ".".join(path)
@@ -153,11 +153,11 @@ def _transitions(chart: Chart) -> Iterator[_TransitionList]:
         def drawn(new: Sequence[Transition], path: Path = path) -> Chart:
             return edit_at(chart, path, lambda s: replace(s, transitions=tuple(new)))
 
-        yield _TransitionList(f"default/{of}" if of else "default", path, state.default, default, True)
-        yield _TransitionList(f"arrow/{of}", path[:-1], state.transitions, drawn)
+        yield TransitionList(f"default/{of}" if of else "default", path, state.default, default, True)
+        yield TransitionList(f"arrow/{of}", path[:-1], state.transitions, drawn)
         for junction in state.junctions:
             name = ".".join((*path, junction.name))
-            yield _TransitionList(
+            yield TransitionList(
                 f"arrow/{name}", path, junction.transitions, _of_junction(chart, path, junction)
             )
 
@@ -173,7 +173,7 @@ def _of_junction(chart: Chart, path: Path, junction: Junction) -> Callable[[Sequ
     return changed
 
 
-def _putter(transitions: _TransitionList, number: int) -> Callable[[Transition], Chart]:
+def _putter(transitions: TransitionList, number: int) -> Callable[[Transition], Chart]:
     def put(new: Transition) -> Chart:
         return transitions.changed([new if i == number else s for i, s in enumerate(transitions.segments)])
 
@@ -181,7 +181,7 @@ def _putter(transitions: _TransitionList, number: int) -> Callable[[Transition],
 
 
 def _segment(
-    chart: Chart, transitions: _TransitionList, segment: Transition, step_ms: int
+    chart: Chart, transitions: TransitionList, segment: Transition, step_ms: int
 ) -> Iterator[tuple[str, str, Transition]]:
     """Faults of the guard and the target of a transition."""
     if segment.guard is not None:
@@ -221,7 +221,7 @@ def _sibling(chart: Chart, level: Path, target: str) -> str | None:
     return next((n for n in names if wanted != path and chart.resolve(level, n) == wanted), None)
 
 
-def _priorities(transitions: _TransitionList) -> Iterator[ChartFault]:
+def _priorities(transitions: TransitionList) -> Iterator[ChartFault]:
     """Two transitions that follow each other, tested in the other order."""
     for number, (one, two) in enumerate(zip(transitions.segments, transitions.segments[1:], strict=False)):
         new = [*transitions.segments[:number], two, one, *transitions.segments[number + 2 :]]
@@ -289,4 +289,4 @@ def _data(region: State) -> tuple[set[str], set[str]]:
     return set(reads(actions)) | set(variables(*guards)), set(writes(actions))
 
 
-__all__ = ["ChartFault", "block_faults", "chart_faults"]
+__all__ = ["ChartFault", "TransitionList", "block_faults", "chart_faults", "transition_lists"]

@@ -15,6 +15,7 @@ from rovercheck.checker.commands.certify.document import CertifyDocument
 from rovercheck.checker.commands.check.document import CheckDocument
 from rovercheck.checker.commands.check_log.document import CheckLogDocument
 from rovercheck.checker.commands.compare.document import CompareDocument
+from rovercheck.checker.commands.diagnose.document import DiagnoseDocument
 from rovercheck.checker.commands.diff.document import DiffDocument
 from rovercheck.checker.commands.doctor.document import DoctorDocument
 from rovercheck.checker.commands.generate_tests.document import GenerateTestsDocument
@@ -30,6 +31,7 @@ DOCUMENTS: Mapping[str, Any] = {
     "conform-1": CheckLogDocument,
     "crosscheck-1": CompareDocument,
     "decisions-1": DecisionsDocument,
+    "diagnose-1": DiagnoseDocument,
     "diff-1": DiffDocument,
     "doctor-1": DoctorDocument,
     "graph-2": GraphDocument,

@@ -221,6 +221,10 @@ PROGRAMS = {
         "from rovercheck import Chart, State, after, always, assign, flag, implies, model, picture, sec, to",
     ): "python",
     ("docs/compare.md", "from rovercheck.checker.compare import cross_check, effort, quick_check"): "imports",
+    (
+        "docs/diagnose.md",
+        "from rovercheck.checker.diagnosis.evidence import RecordedRun",
+    ): "imports",
     ("docs/models.md", "from rovercheck import ("): "model",
 }
 """Python of a page: compiled; its imports executed; or read as a model."""

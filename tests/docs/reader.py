@@ -22,7 +22,10 @@ ANYWHERE = re.compile(r"(?:check|trace)(?: P[A-Z0-9]+-[0-9a-z]+)+")
 PROMPT = re.compile(r"^tick \d+, [\d.]+ m?s> (.+)$")
 
 
-PROGRESS = re.compile(r"(?m)^(?:\d+ of [\d,]+(?: [a-z]+)?, )?(?:\d+ (?:h|min|s) )+so far\b.*\n")
+PROGRESS = re.compile(
+    r"(?m)^(?:(?:\d+ of [\d,]+(?: [a-z]+)?, )?(?:\d+ (?:h|min|s) )+so far\b.*"
+    r"|(?:following|looking for the cause in|telling causes apart in) \S+)\n"
+)
 
 
 @dataclass

@@ -34,6 +34,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         "rovercheck compare --system board1",
         "rovercheck compare --system board1 --impl c:examples/board1_c",
     ),
+    "diagnose": (
+        "rovercheck diagnose examples/logs/faults.csv",
+        "rovercheck diagnose examples/logs --map examples/logs/map.toml --write variant.toml",
+    ),
     "diff": (
         "rovercheck diff HEAD",
         "rovercheck diff main HEAD --model heater.py --format markdown",

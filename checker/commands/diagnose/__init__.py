@@ -1,0 +1,57 @@
+"""The verb ``diagnose``: the changes of the charts that explain how logs deviate."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import gathered, quietly
+
+
+@dataclass(frozen=True)
+class DiagnoseOptions:
+    """How logs are read, what they are compared with, and how long causes are looked for."""
+
+    map_file: Path | None = None
+    system: str | None = None
+    variant: Path | None = None
+    write: Path | None = None
+    seconds: float = 60.0
+    as_json: bool = False
+
+
+@click.command(short_help="Find the causes of what logs do otherwise than the charts.")
+@click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR")
+@click.option(
+    "--map",
+    "map_file",
+    type=click.Path(path_type=Path),
+    metavar="MAP.toml",
+    help="What the columns are (docs/logs.md).",
+)
+@click.option(
+    "--system", metavar="NAME", help="The board: board1 or board2; by default found from the columns."
+)
+@click.option(
+    "--variant", type=click.Path(path_type=Path), metavar="FILE", help="Charts with the changes of a variant."
+)
+@click.option(
+    "--write", type=click.Path(path_type=Path), metavar="FILE", help="Write the causes as a variant."
+)
+@click.option(
+    "--seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    default=60.0,
+    show_default=True,
+    metavar="S",
+    help="How long the causes of a part are looked for.",
+)
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@quietly
+@gathered(DiagnoseOptions, "options")
+def diagnose(place: Path, options: DiagnoseOptions) -> Exit:
+    """Find the nearest changes of the charts that explain all that logs do otherwise."""
+    from rovercheck.checker.commands.diagnose.run import diagnose as run
+
+    return run(place, options)

@@ -1,0 +1,133 @@
+"""``rovercheck diagnose``: the changes of the charts that explain how logs deviate."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rovercheck.checker.commands.diagnose import DiagnoseOptions
+from rovercheck.checker.commands.diagnose.text import page
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import err, out
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.diagnosis.evidence import RecordedRun
+from rovercheck.checker.diagnosis.logs import logged_run
+from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
+from rovercheck.checker.diagnosis.sentences import like
+from rovercheck.checker.diagnosis.variant import VariantError, applied, read_variant, written
+from rovercheck.checker.io.files import replaced
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.logs import ColumnMap, LogError, read_map
+from rovercheck.spec_model.abstraction import Board, boards
+
+SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
+
+
+@dataclass
+class FoundCauses:
+    """What was found of each board, and the logs that could not be read, each with the reason."""
+
+    boards: list[BoardDiagnosis] = field(default_factory=list)
+    unread: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def code(self) -> Exit:
+        """1 if anything deviates, 4 if a log was not read, 2 if not all could be decided."""
+        if any(b.parts for b in self.boards):
+            return Exit.FAILED
+        if self.unread:
+            return Exit.USAGE
+        return Exit.INCONCLUSIVE if any(b.undecided for b in self.boards) else Exit.AS_EXPECTED
+
+
+def diagnose(place: Path, options: DiagnoseOptions) -> Exit:
+    """Diagnose one log or all logs of a folder.
+
+    Raises ``UsageError`` for a map or a variant without meaning, and for a single log that cannot be read.
+    """
+    how, charts = _map(options.map_file), _boards(options.variant)
+    logs = _logs(place)
+    if not logs:
+        err.print(f"{place} holds no log ({', '.join(SUFFIXES)}).", markup=False)
+        return Exit.NOTHING
+    found = FoundCauses()
+    with ProgressLine() as line:
+        runs = _read(logs, how, options.system or "", found)
+        for name, of_board in runs.items():
+            found.boards.append(diagnose_board(charts[name], of_board, options.seconds, line.show))
+    if not place.is_dir() and found.unread:
+        raise UsageError(f"{place}: {found.unread[place.name]}")
+    if options.write is not None:
+        _write(options.write, found)
+    if options.as_json:
+        from rovercheck.checker.commands.diagnose.document import diagnose_document
+
+        print(json_text(diagnose_document(found.boards, found.unread, found.code)))
+    else:
+        out.print(page(found.boards, found.unread), markup=False)
+        if options.write is not None and any(b.causes for b in found.boards):
+            out.print(f"\nThe variant is in {options.write}.", markup=False)
+    return found.code
+
+
+def _logs(place: Path) -> Sequence[Path]:
+    if not place.is_dir():
+        return [place]
+    try:
+        return sorted(p for p in place.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
+    except OSError as error:
+        raise UsageError(f"Cannot read the folder {place}: {error.strerror}. Write another.") from error
+
+
+def _map(file: Path | None) -> ColumnMap:
+    try:
+        return ColumnMap() if file is None else read_map(file)
+    except LogError as error:
+        raise UsageError(str(error)) from error
+
+
+def _boards(file: Path | None) -> Mapping[str, Board]:
+    """The boards, one of them with the changes of a variant."""
+    found = boards()
+    if file is None:
+        return found
+    try:
+        variant = read_variant(file)
+        if variant.board not in found:
+            raise VariantError(f"{file}: there is no board {variant.board!r}; write {' or '.join(found)}.")
+        return {**found, variant.board: applied(found[variant.board], variant, str(file))}
+    except VariantError as error:
+        raise UsageError(str(error)) from error
+
+
+def _read(
+    logs: Sequence[Path], how: ColumnMap, system: str, found: FoundCauses
+) -> Mapping[str, list[RecordedRun]]:
+    """The logs of each board that can be read to their ends."""
+    runs: dict[str, list[RecordedRun]] = {}
+    for log in logs:
+        try:
+            one = logged_run(log, how, system)
+            for _ in one.run.blocks():
+                pass
+        except LogError as error:
+            found.unread[log.name] = str(error)
+        except MemoryError:
+            found.unread[log.name] = "takes more memory than there is; cut it into several logs."
+        else:
+            runs.setdefault(one.board, []).append(one.run)
+    return runs
+
+
+def _write(file: Path, found: FoundCauses) -> None:
+    """The causes as a variant.  Raises ``UsageError`` if it cannot be written or is that of two boards."""
+    with_causes = [b for b in found.boards if b.causes]
+    if len(with_causes) > 1:
+        names = " and ".join(b.board.name for b in with_causes)
+        raise UsageError(f"A variant is one of one board, and causes are in {names}; choose with --system.")
+    for one in with_causes:
+        changes = [change for cause in one.causes for change in cause.changes]
+        text = written(one.board.name, changes, [f"{c.chart} behaves {like(c)}." for c in changes])
+        try:
+            replaced(file, text.encode())
+        except OSError as error:
+            raise UsageError(f"Cannot write {file}: {error.strerror}. Choose another --write.") from error

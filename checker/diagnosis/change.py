@@ -1,0 +1,91 @@
+"""A change of a chart as a hypothesis: what it is, where, from what to what, and how near to the charts."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from rovercheck.spec_model.lang.system import System
+
+ChangeKind = Literal[
+    "interpretation", "repair", "limit", "constant", "comparison", "timer", "bit", "member", "value",
+    "target", "order", "joined", "negated", "dropped", "missing", "always", "never", "operands", "signal",
+    "exchanged", "initial", "late", "stale", "held", "frozen", "unread", "shared", "enabled", "dead",
+    "extra",
+]  # fmt: skip
+
+KINDS: dict[str, str] = {
+    "interpretation": "another interpretation",
+    "repair": "a proposed repair",
+    "limit": "another limit",
+    "constant": "another constant",
+    "comparison": "another comparison",
+    "timer": "another time",
+    "bit": "another bit",
+    "member": "another member",
+    "value": "another value",
+    "target": "another target",
+    "order": "another order",
+    "joined": "joined otherwise",
+    "negated": "negated",
+    "dropped": "a part of a condition is missing",
+    "missing": "an action is missing",
+    "always": "a condition is always true",
+    "never": "a transition is missing",
+    "operands": "operands exchanged",
+    "signal": "another signal in one place",
+    "exchanged": "two signals exchanged",
+    "initial": "another initial value",
+    "late": "a step late",
+    "stale": "an input of the step before",
+    "held": "a value held",
+    "frozen": "an input read once",
+    "unread": "an input that is not read",
+    "shared": "shared memory",
+    "enabled": "executed also when not enabled",
+    "dead": "never executed",
+    "extra": "an extra transition",
+}
+"""The kinds of changes, in words; the nearest first."""
+
+TIERS: dict[str, float] = {
+    "interpretation": 0, "repair": 1, "comparison": 2, "limit": 2, "timer": 2, "constant": 3,
+    "joined": 3.1, "dropped": 3.2, "order": 3.2, "target": 3.3, "never": 3.4, "missing": 3.4, "always": 3.6,
+    "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "signal": 5, "shared": 5,
+    "initial": 6, "held": 6, "unread": 6, "enabled": 6, "frozen": 7, "dead": 7, "extra": 8,
+}  # fmt: skip
+"""How near a kind of change lies to the charts; 3 where nothing is said."""
+
+Nearness = tuple[float, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ChartChange:
+    """One change of one chart or block.
+
+    ``at`` is where, as ids of mutants say it; ``old`` and ``new`` are what stands there as drawn and as
+    changed.  ``make`` makes the changed system.
+    """
+
+    kind: ChangeKind
+    chart: str
+    at: str
+    old: str
+    new: str
+    text: str
+    make: Callable[[], System]
+    distance: float = 0.0
+    """Among changes of one kind: how far from what is drawn."""
+    note: str = ""
+    """What else would do."""
+
+    @property
+    def key(self) -> tuple[str, ...]:
+        return (self.kind, self.chart, self.at, self.old, self.new)
+
+    @property
+    def nearness(self) -> Nearness:
+        """The nearer of two changes that explain as much comes first."""
+        return (TIERS.get(self.kind, 3), self.distance)
+
+
+__all__ = ["KINDS", "TIERS", "ChangeKind", "ChartChange", "Nearness"]

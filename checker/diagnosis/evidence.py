@@ -1,0 +1,202 @@
+"""What recordings say of one part of a board: its rows, and the cases in which it deviates."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from rovercheck.checker.conformance.cones import ConeGroup, LogCone, cone_groups
+from rovercheck.checker.conformance.decoder import InputDecoder
+from rovercheck.checker.conformance.follower import Behaviour, BoardFollower
+from rovercheck.checker.conformance.mismatch import LogMismatch
+from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
+from rovercheck.checker.conformance.signals import Vocabulary
+from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
+from rovercheck.spec_model.abstraction import Board
+
+Options = dict[str, dict[int, tuple[Raw | None, ...]]]
+"""The values that an input may have had, by its name and the row."""
+
+
+@dataclass(frozen=True)
+class RecordedRun:
+    """A recorded run of a board, whoever recorded it.
+
+    ``signals``: what it holds, inputs and outputs, by name.  ``blocks`` gives its rows from the first, each
+    time that it is called.  ``tolerance``: how far an output may lie from what is required.
+    """
+
+    name: str
+    signals: frozenset[str]
+    from_power_up: bool
+    blocks: Callable[[], Iterable[LogBlock]]
+    tolerance: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class DeviatingCase:
+    """Successive rows of a run in which a part deviates: the places of the first and of the last."""
+
+    first: int
+    last: int
+    mismatch: LogMismatch
+
+
+@dataclass
+class DecodedRun:
+    """A run as the charts see it: every known variable row by row.
+
+    ``options``: by the name of a part, what its inputs may have been where they are outputs that deviate.
+    ``undecided``: by the name of a part the row from which on it is not decided.
+    """
+
+    run: RecordedRun
+    columns: dict[str, Cells]
+    ticks: list[int]
+    lines: list[int]
+    missing: list[int]
+    options: dict[str, Options] = field(default_factory=dict)
+    wrong: dict[str, list[tuple[int, LogMismatch]]] = field(default_factory=dict)
+    undecided: dict[str, int] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.ticks)
+
+    def cases(self, part: str) -> list[DeviatingCase]:
+        """The cases of a part."""
+        found: list[DeviatingCase] = []
+        for row, mismatch in self.wrong.get(part, ()):
+            if found and found[-1].last == row - 1:
+                found[-1] = DeviatingCase(found[-1].first, row, found[-1].mismatch)
+            else:
+                found.append(DeviatingCase(row, row, mismatch))
+        return found
+
+
+@dataclass
+class PartEvidence:
+    """All that the recordings say of one part: ``runs`` conform or deviate, ``group`` is the part."""
+
+    group: ConeGroup
+    cone: LogCone
+    runs: list[DecodedRun]
+
+    @property
+    def name(self) -> str:
+        return self.group.name
+
+    @property
+    def deviating(self) -> list[DecodedRun]:
+        """The runs in which the part deviates."""
+        return [run for run in self.runs if run.wrong.get(self.name)]
+
+    @property
+    def cases(self) -> int:
+        """How often it deviates, in all runs."""
+        return sum(len(run.cases(self.name)) for run in self.deviating)
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What the recordings say of a board: the parts that deviate, and how each run behaves."""
+
+    board: Board
+    parts: tuple[PartEvidence, ...]
+    behaviours: Mapping[str, Behaviour]
+
+
+Seen = tuple[frozenset[str], frozenset[str]]
+
+
+class EvidenceCollector:
+    """Takes recorded runs one by one."""
+
+    def __init__(self, board: Board) -> None:
+        self._board = board
+        self._vocabulary = Vocabulary(board)
+        self._groups: dict[Seen, tuple[tuple[ConeGroup, LogCone], ...]] = {}
+        self._runs: dict[Seen, list[DecodedRun]] = {}
+        self._behaviours: dict[str, Behaviour] = {}
+
+    def add(self, run: RecordedRun) -> None:
+        """Follow a run.  Raises what reading its blocks raises."""
+        decoder = InputDecoder(self._vocabulary, run.signals, run.from_power_up)
+        key = decoder.seen, run.signals - self._vocabulary.inputs
+        if key not in self._groups:
+            groups = cone_groups(self._board, *key)
+            self._groups[key] = tuple((group, group.cone()) for group in groups)
+        watch = _Watch()
+        cones = [cone for _, cone in self._groups[key]]
+        follower = BoardFollower(cones, run.tolerance, decoder.seen, run.from_power_up, watch.row)
+        outputs = {o.var.name: o.name for cone in cones for o in cone.outputs}
+        decoded = DecodedRun(run, {n: [] for n in (*decoder.seen, *outputs)}, [], [], [])
+        for block in run.blocks():
+            seen = decoder.decode(block)
+            follower.block(block, seen)
+            for name, cells in seen.items():
+                decoded.columns[name] += cells
+            for name, signal in outputs.items():
+                decoded.columns[name] += block.values[signal]
+            decoded.ticks += block.ticks
+            decoded.lines += block.lines
+            decoded.missing += block.missing
+        watch.tell(decoded)
+        self._behaviours[run.name] = follower.end()
+        self._runs.setdefault(key, []).append(decoded)
+
+    def evidence(self) -> Evidence:
+        """The parts that deviate in some run, in the order of execution."""
+        found: list[PartEvidence] = []
+        for key, runs in self._runs.items():
+            for group, cone in self._groups[key]:
+                part = PartEvidence(group, cone, runs)
+                if part.deviating:
+                    found.append(part)
+        return Evidence(self._board, tuple(found), self._behaviours)
+
+
+class _Watch:
+    """Notes what differs, and what others may have seen in its place."""
+
+    def __init__(self) -> None:
+        self._row: dict[str, int] = {}
+        self._wrong: dict[str, list[tuple[int, LogMismatch]]] = {}
+        self._options: dict[str, Options] = {}
+        self._undecided: dict[str, int] = {}
+
+    def row(self, tracker: Tracker, row: TrackedRow, mismatch: LogMismatch | None) -> None:
+        name = tracker.cone.name
+        at = self._row[name] = self._row.get(name, -1) + 1
+        if mismatch is not None:
+            self._wrong.setdefault(name, []).append((at, mismatch))
+        if tracker.undecided is not None:
+            self._undecided.setdefault(name, at)
+        for var, given in zip(tracker.cone.system.inputs, row.inputs, strict=True):
+            if len(given) > 1:
+                self._options.setdefault(name, {}).setdefault(var.name, {})[at] = given
+
+    def tell(self, run: DecodedRun) -> None:
+        run.wrong, run.options, run.undecided = self._wrong, self._options, self._undecided
+
+
+def logged_of(cone: LogCone, run: DecodedRun) -> list[Known]:
+    """The outputs of a part, row by row."""
+    columns = [run.columns.get(o.var.name) or [None] * len(run) for o in cone.outputs]
+    return list(zip(*columns, strict=True)) if columns else [()] * len(run)
+
+
+def inputs_of(cone: LogCone, run: DecodedRun) -> list[Known]:
+    """The inputs of a part, row by row, as they were recorded."""
+    columns: list[Sequence[Raw | None]] = []
+    for var in cone.system.inputs:
+        cells = run.columns.get(var.name) or [None] * len(run)
+        if var.name in cone.before:
+            first = var.init if run.run.from_power_up else None
+            cells = [first, *cells[:-1]]
+        columns.append(cells)
+    return list(zip(*columns, strict=True)) if columns else [()] * len(run)
+
+
+__all__ = [
+    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "RecordedRun",
+    "inputs_of", "logged_of",
+]  # fmt: skip

@@ -1,0 +1,247 @@
+"""All changes of a part that are tried, from near to far; those of limits have the values tried in limits."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cache, partial
+
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange
+from rovercheck.checker.mutate.delays import Delay, delays
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.rewrites import (
+    Rewrite,
+    extra_transitions,
+    rewrites,
+    shared_memory,
+    timer_rewrites,
+)
+from rovercheck.checker.mutate.wiring import kept
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.boards import BOARDS, RECORDED
+from rovercheck.spec_model.ambiguity import ambiguities, fixed
+from rovercheck.spec_model.interpretations import Alternative, alternatives, name_of
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.edit import in_system
+from rovercheck.spec_model.lang.expr import Const, Expr, Var
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import outermost, structure, variables
+from rovercheck.spec_model.repairs import repaired, repairs
+
+OPERATORS: Mapping[str, ChangeKind] = {
+    "comparison": "comparison", "and-or": "joined", "dropped": "dropped", "bit": "bit", "member": "member",
+    "value": "value", "action-missing": "missing", "condition-negated": "negated", "field": "signal",
+    "guard-negated": "negated", "guard-true": "always", "guard-false": "never", "arrow-missing": "never",
+    "target": "target", "priority": "order", "order": "order", "initial": "initial", "dead": "dead",
+    "enabled": "enabled", "dead-wire": "unread",
+}  # fmt: skip
+"""What the operators of mutants are called here.  Limits and times are tried with many values instead."""
+
+MOST_CONDITIONS = 60
+"""Conditions of the chart that are tried on transitions that are not drawn."""
+
+
+def mutant_changes(system: System, only: frozenset[str] | None = None) -> Iterator[ChartChange]:
+    """The first-order mutants."""
+    for one in mutants(system, only):
+        if one.operator in OPERATORS:
+            yield _of_mutant(one)
+
+
+def _of_mutant(one: Mutant) -> ChartChange:
+    kind, at = OPERATORS[one.operator], one.id.partition("/")[2]
+    # comparisons with a number are limits, which are tried with all their values and told as such
+    distance = 0.05 if kind == "comparison" else 0.0
+    return ChartChange(kind, one.part, at, "as drawn", one.text, one.text, one.make, distance)
+
+
+def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[str]) -> Iterator[ChartChange]:
+    """What the mutants leave out."""
+    for part in parts(system.components):
+        if part.name in only:
+            for one in rewrites(part, others):
+                yield _of_rewrite(system, part, one, REWRITES[one.kind])
+            for one in shared_memory(part):
+                yield _of_rewrite(system, part, one, "shared")
+
+
+REWRITES: Mapping[str, ChangeKind] = {
+    "bit": "bit", "operands": "operands", "member": "member", "negated": "negated", "signal": "signal",
+    "exchanged": "exchanged", "target": "target", "order": "order", "timer": "timer", "extra": "extra",
+    "shared": "shared",
+}  # fmt: skip
+
+TOLD = {
+    "bit": "`{new}` in place of `{old}`",
+    "operands": "`{new}` in place of `{old}`",
+    "member": "{new} in place of {old}",
+    "negated": "`{old}` is negated",
+    "signal": "{new} is read in place of {old}",
+    "exchanged": "{old} and {new} are exchanged",
+    "target": "the transition to {old} leads to {new}",
+    "order": "{old} is tested {new}",
+    "timer": "a time of {new} instead of {old}",
+    "shared": "{old} and {new} share one memory",
+    "extra": "there is an extra transition, {new}",
+}
+
+
+def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
+    word = "signal" if kind == "exchanged" and one.new not in part.read else kind
+    text = TOLD[word].format(old=one.old, new=one.new)
+    if one.site not in ("everywhere", "memory", "buffers"):
+        text += f" ({one.site})"
+    make = partial(_with_part, system, part, one.part)
+    return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)
+
+
+def _with_part(system: System, old: Chart | Block, new: Chart | Block) -> System:
+    return kept(system, in_system(system, old.name, lambda _: new))
+
+
+def signals_of(board: Board) -> dict[str, Var]:
+    """The signals of a board that a chart may read by mistake, by the name of the variable."""
+    return {**board.system.inputs, **{o.var.name: o.var for o in board.outputs}}
+
+
+def timer_changes(system: System, steps: Sequence[int], only: frozenset[str]) -> Iterator[ChartChange]:
+    """Other times; ``steps``: numbers of steps that the recordings suggest."""
+    for part in parts(system.components):
+        if part.name in only:
+            for number, one in enumerate(timer_rewrites(part, system.step_ms, steps)):
+                change = _of_rewrite(system, part, one, "timer")
+                nearer = 0.0 if one.site == "everywhere" else 0.5
+                yield replace(change, distance=nearer + number / 1e6)
+
+
+def delay_changes(
+    system: System, only: frozenset[str], outputs: frozenset[str] = frozenset()
+) -> Iterator[ChartChange]:
+    """Values late, old, held or never renewed; those of ``outputs`` are nearer than what lies inside."""
+    kinds: Mapping[str, ChangeKind] = {
+        "late": "late", "stale": "stale", "held": "held", "frozen": "frozen", "unread": "unread"
+    }  # fmt: skip
+    for one in delays(system):
+        if one.part in only:
+            far = 0.0 if one.signal in outputs else 0.5 if one.kind in ("late", "held") else 0.25
+            yield ChartChange(
+                kinds[one.kind], one.part, f"signal/{one.signal}", one.old, one.new, _told(one), one.make,
+                far,
+            )  # fmt: skip
+
+
+def _told(one: Delay) -> str:
+    match one.kind:
+        case "late":
+            return f"{one.signal} is given a step later"
+        case "stale":
+            return f"{one.signal} is read as of the step before"
+        case "held":
+            return f"{one.signal} is {one.new}"
+        case "frozen":
+            return f"{one.signal} is read in the first step only"
+        case _:
+            return f"{one.signal} is not read: {one.new}"
+
+
+def extra_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:
+    """Transitions that are not drawn, under conditions that the chart knows."""
+    for part in parts(system.components):
+        if isinstance(part, Chart) and part.name in only:
+            for one in extra_transitions(part, _conditions(part)):
+                yield _of_rewrite(system, part, one, "extra")
+
+
+def _conditions(chart: Chart) -> list[Expr]:
+    """Guards of the chart, their conjuncts, and its boolean inputs."""
+    found: dict[object, Expr] = {}
+    for guard in chart.guards:
+        for one in (guard, *outermost(guard)):
+            found.setdefault(structure(one), one)
+    for v in variables(*chart.guards).values():
+        if isinstance(v.sort, Bool):
+            for one in (v, ~v):
+                found.setdefault(structure(one), one)
+    return [one for one in found.values() if not isinstance(one, Const)][:MOST_CONDITIONS]
+
+
+# --- what is written down ---------------------------------------------------------------------------------
+
+
+def written_changes(board: Board, system: System) -> Iterator[ChartChange]:
+    """Each alternative of an interpretation that concerns some part of the system; each repair that does."""
+    names = frozenset(part.name for part in parts(system.components))
+    raw = next((b.system for b in BOARDS if b.name == board.name), None)
+    if raw is not None:
+        for id, choice in _choices():
+            changed = [a for a in alternatives() if (a.interpretation, a.choice) == (id, choice)]
+            changed = [a for a in changed if a.among(raw)]
+            concerned = [a.part for a in changed if a.part in names] or _reads(raw, names, id)
+            if concerned:
+                one = ambiguities()[id]
+                meaning = changed[0].text.rstrip(".") if changed else one.choices[choice].rstrip(".")
+                make = partial(_interpreted, raw, system, tuple(changed), id, choice)
+                yield ChartChange(
+                    "interpretation", concerned[0], id, one.default, choice, f"{id}={choice}: {meaning}", make
+                )
+    for repair in repairs().values():
+        concerned = [n for n in names if n in repair.charts or n in repair.blocks]
+        if concerned and not repair.interpretations:
+            make = partial(repaired, system, repair)
+            yield ChartChange("repair", concerned[0], repair.name, "as drawn", repair.name,
+                f"the repair {repair.name}: {repair.text.rstrip('.')}", make)  # fmt: skip
+
+
+@cache
+def _choices() -> tuple[tuple[str, str], ...]:
+    """Every choice that is not the default one, of what the boards can follow."""
+    return tuple(
+        (id, choice)
+        for id, one in ambiguities().items()
+        for choice in one.choices
+        if choice != one.default and choice not in one.not_modelled and id not in RECORDED
+    )
+
+
+def _reads(raw: System, names: frozenset[str], id: str) -> list[str]:
+    """Parts whose formulas depend on an interpretation themselves."""
+    return [p.name for p in parts(raw.components) if p.name in names and id in p.read]
+
+
+def _interpreted(
+    raw: System, system: System, changed: tuple[Alternative, ...], id: str, choice: str
+) -> System:
+    """The parts of a system as the document is read with one other choice.
+
+    A part that depends on the choice itself is taken as it was before interpretations were fixed.
+    """
+    open_ = {part.name: part for part in parts(raw.components) if id in part.read}
+
+    def one(part: Chart | Block) -> tuple[Component, ...]:
+        found: tuple[Component, ...] = (open_.get(part.name, part),)
+        for a in changed:
+            found = tuple(new for old in found for new in _altered(a, old))
+        return found
+
+    def walk(components: Sequence[Component]) -> tuple[Component, ...]:
+        made: list[Component] = []
+        for c in components:
+            if isinstance(c, Enabled):
+                made.append(Enabled(c.by, *walk(c.components), name=c.name, place=c.place))
+            else:
+                made += one(c)
+        return tuple(made)
+
+    return fixed({id: choice}).system(replace(system, components=walk(system.components)))
+
+
+def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
+    if name_of(part) != one.part:
+        return (part,)
+    made = one.change(part)
+    return made if isinstance(made, tuple) else (made,)
+
+
+__all__ = [
+    "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of", "timer_changes",
+    "written_changes",
+]  # fmt: skip

@@ -1,0 +1,351 @@
+"""Numbers of a chart with other values: it is lowered once with a number left open, then values are tried.
+
+Values come from the recordings: a limit lies between two values that were met, of which one was on the other
+side than drawn.  Of all numbers in between the one with the fewest digits is told.
+"""
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from math import ceil, floor, log10
+
+from rovercheck.checker.conformance.recording import Raw
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange
+from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.mutate.formulas import BESIDE
+from rovercheck.checker.mutate.places import FormulaPlace
+from rovercheck.checker.mutate.rewrites import mapped, numbers_in, same_shape
+from rovercheck.checker.mutate.wiring import kept
+from rovercheck.spec_model.abstraction.signals import computed
+from rovercheck.spec_model.lang.chart import Block, Chart, parts
+from rovercheck.spec_model.lang.domain import Bool, Num, fixed
+from rovercheck.spec_model.lang.domain import show as number_text
+from rovercheck.spec_model.lang.edit import in_system
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, aligned
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import nodes, structure, variables
+
+PARAMETER = "(limit that is tried)"
+WIDE = 10**9
+BEFORE = 260
+"""Rows before a case whose values may have brought it about."""
+MOST_MET = 80
+"""Values met before a case that are tried as limits."""
+_SIDES = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
+CLOSED = (Op.LE, Op.GE)
+OPPOSITE = {Op.LT: Op.GE, Op.GE: Op.LT, Op.LE: Op.GT, Op.GT: Op.LE}
+
+
+Gap = tuple[Fraction, Fraction]
+"""Two successive values that were met, raw."""
+
+
+@dataclass(frozen=True)
+class NumberSlot:
+    """A number of a chart that may have another value.
+
+    ``left`` and ``op`` are those of the comparison that it is the limit of.  ``part`` makes the chart with
+    another operator and number, in one place or everywhere that ``left`` is compared with it.
+    """
+
+    chart: str
+    at: str
+    old: Const
+    op: Op | None
+    left: Expr | None
+    part: Callable[[Op | None, Expr], Chart | Block]
+    system: System
+
+    @property
+    def sort(self) -> Num:
+        assert isinstance(self.old.sort, Num)
+        return self.old.sort
+
+    @property
+    def drawn(self) -> Fraction:
+        """The number as drawn, raw."""
+        return Fraction(self.old.value)
+
+    def opened(self, op: Op | None) -> System:
+        """The system with the number left open, as an input."""
+        high = WIDE * self.sort.resolution
+        domain = fixed(-high, high, self.sort.resolution, str(self.sort.unit))
+        return self._with(op, Var(PARAMETER, domain, 0))
+
+    def change(self, op: Op | None, raw: Raw, between: Gap | None = None) -> ChartChange:
+        """The number as another one; ``between``: the values met between which it lies."""
+        value = raw * self.sort.resolution
+        drawn = self.drawn * self.sort.resolution
+        new, old = self._named(op, value), self._named(self.op, drawn)
+        kind: ChangeKind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
+        where = "" if self.at == "everywhere" else f" ({self.at})"
+        text = f"a limit of {new}, instead of {old}{where}" if op else f"{new} instead of {old}{where}"
+        # a digit more, another operator, one place of several: each makes it less likely
+        moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
+        far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 if raw != self.drawn else 0.0
+        far += (self.at != "everywhere") / 8
+        return ChartChange(
+            kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
+            lambda: self._with(op, self._const(raw)), far / 100, self._between(between),
+        )  # fmt: skip
+
+    def _between(self, gap: Gap | None) -> str:
+        if gap is None or gap[0] == gap[1]:
+            return ""
+        low, high = (number_text(end * self.sort.resolution) for end in gap)
+        return f"any limit between {low} and {high} explains the same"
+
+    def _named(self, op: Op | None, value: Fraction) -> str:
+        unit = f" {self.sort.unit}" if self.sort.unit else ""
+        if op is None:
+            return f"{number_text(value)}{unit}"
+        return f"{number_text(value)}{unit}, {'closed' if op in CLOSED else 'open'}"
+
+    def _formula(self, op: Op | None, raw: Raw) -> str:
+        value = number_text(Fraction(raw) * self.sort.resolution)
+        return value if op is None or self.left is None else f"{self.left} {op.value} {value}"
+
+    def _const(self, raw: Raw) -> Const:
+        exact = Fraction(raw)
+        sort = Num(self.sort.resolution / exact.denominator, self.sort.unit)
+        return Const(exact.numerator, sort) if exact.denominator > 1 else Const(int(exact), self.sort)
+
+    def _with(self, op: Op | None, number: Expr) -> System:
+        part = self.part(op, number)
+        return kept(self.system, in_system(self.system, self.chart, lambda _: part))
+
+
+def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:
+    """Every number of a system: those that occur in several places also as one."""
+    for part in parts(system.components):
+        if part.name in only:
+            yield from _of_part(system, part)
+
+
+def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
+    same: dict[object, list[NumberSlot]] = {}
+    for place, node, put, limit in numbers_in(part):
+        at = f"{place.site} {place.role}"
+        if limit is None:
+            assert isinstance(node, Const)
+            yield NumberSlot(part.name, at, node, None, None, partial(_plain, place, put), system)
+            continue
+        left, old, op = _normal(limit)
+        slot = NumberSlot(part.name, at, old, op, left, partial(_compared_at, place, put, left), system)
+        yield slot
+        if op in OPPOSITE:
+            same.setdefault((structure(left), old.value, old.sort), []).append(slot)
+    for found in same.values():
+        if len(found) > 1:
+            yield _everywhere(system, part, found[0])
+
+
+def _plain(place: FormulaPlace, put: Callable[[Expr], Expr], _: Op | None, new: Expr) -> Chart | Block:
+    return place.put(put(new))
+
+
+def _compared_at(
+    place: FormulaPlace, put: Callable[[Expr], Expr], left: Expr, op: Op | None, new: Expr
+) -> Chart | Block:
+    return place.put(put(_compared(op, left, new)))
+
+
+def _normal(limit: Apply) -> tuple[Expr, Const, Op]:
+    left, right = limit.args
+    if isinstance(right, Const):
+        return left, right, limit.op
+    assert isinstance(left, Const)
+    return right, left, _SIDES.get(limit.op, limit.op)
+
+
+def _compared(op: Op | None, left: Expr, number: Expr) -> Expr:
+    assert op is not None
+    args, _ = aligned(op.value, left, number)
+    return Apply(op, args, Bool())
+
+
+def _everywhere(system: System, part: Chart | Block, slot: NumberSlot) -> NumberSlot:
+    """All comparisons of one formula with one number; those with ``<`` and ``>=`` stay opposites."""
+    left, old, drawn = slot.left, slot.old, slot.op
+    assert left is not None and drawn is not None
+
+    def changed(op: Op | None, new: Expr) -> Chart | Block:
+        assert op is not None
+        turned = (op is not drawn) and op is BESIDE[drawn]
+
+        def change(node: Expr) -> Expr:
+            if not (isinstance(node, Apply) and node.op in COMPARISONS and len(node.args) == 2):
+                return node
+            if sum(isinstance(a, Const) for a in node.args) != 1:
+                return node
+            here, number, found = _normal(node)
+            if found not in OPPOSITE or number.value != old.value or number.sort != old.sort:
+                return node
+            if not same_shape(here, left):
+                return node
+            return _compared(BESIDE[found] if turned else found, here, new)
+
+        return mapped(part, change)
+
+    return NumberSlot(part.name, "everywhere", old, drawn, left, changed, system)
+
+
+# --- values ------------------------------------------------------------------------------------------------
+
+
+def digits(value: Fraction) -> float:
+    """How long a number is to say: its significant digits, half of one less for a 5 at the end."""
+    if value == 0:
+        return 0.5
+    scaled, places = abs(value), 0
+    while scaled.denominator > 1 and places < 9:
+        scaled, places = scaled * 10, places + 1
+    if scaled.denominator > 1:
+        return 12.0
+    text = str(int(scaled)).rstrip("0")
+    return len(text) - (0.5 if text.endswith("5") and len(text) > 1 else 0) + places / 2
+
+
+def simplest(low: Fraction, high: Fraction, closed_low: bool, closed_high: bool) -> Fraction | None:
+    """The number with the fewest digits from ``low`` to ``high``, an end itself only where it is closed."""
+    if low > high or (low == high and not (closed_low and closed_high)):
+        return None
+    width = high - low
+    power = ceil(log10(width)) if width > 0 else -6
+    best: Fraction | None = None
+    for exponent in range(power + 1, power - 4, -1):
+        for unit in (Fraction(10) ** exponent, Fraction(5) * Fraction(10) ** (exponent - 1)):
+            first = ceil(low / unit)
+            for k in range(first, min(first + 12, floor(high / unit) + 1)):
+                value = k * unit
+                inside = (low < value or closed_low) and (value < high or closed_high)
+                if inside and low <= value <= high and (best is None or digits(value) < digits(best)):
+                    best = value
+        if best is not None:
+            return best
+    ends = [end for end, is_in in ((low, closed_low), (high, closed_high)) if is_in]
+    return min(ends, key=digits) if ends else (low + high) / 2
+
+
+class MetValues:
+    """The values that formulas had in the recordings: all of them, and those shortly before a case."""
+
+    def __init__(self, evidence: PartEvidence) -> None:
+        self._evidence = evidence
+        self._known: dict[object, tuple[list[Fraction], list[Fraction]]] = {}
+
+    def of(self, formula: Expr) -> tuple[list[Fraction], list[Fraction]]:
+        """All values, sorted; those before cases, the latest first.  Of formulas of what is recorded only."""
+        key = structure(formula)
+        if key not in self._known:
+            self._known[key] = self._met(formula)
+        return self._known[key]
+
+    def _met(self, formula: Expr) -> tuple[list[Fraction], list[Fraction]]:
+        names = list(variables(formula))
+        every: set[Fraction] = set()
+        recent: dict[Fraction, None] = {}
+        if any(isinstance(n, Temporal) for n in nodes(formula)):
+            return [], []
+        cases: list[list[Fraction]] = []
+        for run in self._evidence.runs:
+            if not all(name in run.columns for name in names):
+                continue
+            columns = [run.columns[name] for name in names]
+            values = [self._value(formula, names, row) for row in zip(*columns, strict=True)]
+            every.update(v for v in values if v is not None)
+            for case in run.cases(self._evidence.name):
+                window = values[max(0, case.first - BEFORE) : case.first + 1][::-1]
+                cases.append(list(dict.fromkeys(v for v in window if v is not None))[:MOST_MET])
+        for rank in range(max(map(len, cases), default=0)):
+            recent.update((case[rank], None) for case in cases if rank < len(case))
+            if len(recent) >= 4 * MOST_MET:
+                break
+        return sorted(every), list(recent)
+
+    @staticmethod
+    def _value(formula: Expr, names: Sequence[str], row: Sequence[Raw | None]) -> Fraction | None:
+        if any(v is None for v in row):
+            return None
+        at: Mapping[str, Raw] = {n: v for n, v in zip(names, row, strict=True) if v is not None}
+        return Fraction(evaluate(formula, computed(at)))
+
+
+def values_of(
+    slot: NumberSlot, met: MetValues, factors: Iterable[Fraction]
+) -> Mapping[tuple[Op | None, Fraction], Gap | None]:
+    """Operators and raw values for a number, the likeliest first, with the values met on both sides."""
+    found: dict[tuple[Op | None, Fraction], Gap | None] = {}
+    if slot.op is None or slot.left is None:
+        for value in _constants(slot, factors):
+            found[None, value] = None
+    elif slot.op in (Op.EQ, Op.NE):
+        for value in (slot.drawn + 1, slot.drawn - 1, *met.of(slot.left)[1][:20]):
+            found[slot.op, value] = None
+    else:
+        found[BESIDE[slot.op], slot.drawn] = None
+        for op, value, gap in _limits(slot, met):
+            found.setdefault((op, value), gap)
+    found.pop((slot.op, slot.drawn), None)
+    return found
+
+
+def _limits(slot: NumberSlot, met: MetValues) -> Iterator[tuple[Op, Fraction, Gap | None]]:
+    assert slot.left is not None and slot.op is not None
+    every, recent = met.of(slot.left)
+    size = slot.sort.resolution
+    seen: set[tuple[Fraction, Fraction]] = set()
+    for value in recent:
+        gaps = _gaps(every, value, slot.drawn)
+        for low, high in gaps:
+            if (low, high) in seen:
+                continue
+            seen.add((low, high))
+            for op in (slot.op, BESIDE[slot.op]):
+                # which end belongs to the side of the limit itself
+                upper = op in (Op.LT, Op.GE)
+                nice = simplest(low * size, high * size, not upper, upper)
+                if nice is not None:
+                    yield op, nice / size, (low, high)
+    if not every:  # a formula of what nothing tells: timers and counters
+        for value in _constants(slot, ()):
+            for op in (slot.op, BESIDE[slot.op]):
+                yield op, value, None
+
+
+def _gaps(every: Sequence[Fraction], value: Fraction, drawn: Fraction) -> list[tuple[Fraction, Fraction]]:
+    """The gaps beside a value that was met, or to the drawn limit where nothing lies between."""
+    at = bisect_left(every, value)
+    after = bisect_right(every, value)
+    step = max(abs(drawn) / 4, Fraction(1))
+    below = every[at - 1] if at > 0 else value - step
+    above = every[after] if after < len(every) else value + step
+    return [(below, value), (value, above)]
+
+
+_TIMES = ".1 .2 .25 .3 .4 .5 .6 .7 .75 .8 .9 1.1 1.2 1.25 1.5 1.75 2 2.5 3 4 5 10 0 -1"
+NICE = tuple(map(Fraction, _TIMES.split()))
+"""By what a number may have been multiplied."""
+
+
+def _constants(slot: NumberSlot, factors: Iterable[Fraction]) -> Iterator[Fraction]:
+    """Other numbers: a step or two beside, multiples, what the recordings suggest as a factor."""
+    drawn = slot.drawn
+    for factor in factors:
+        yield drawn * factor
+    for distance in (1, 2, 5, 10):
+        yield drawn + distance
+        yield drawn - distance
+    for factor in NICE:
+        yield drawn * factor
+    unit = 1 / slot.sort.resolution
+    for whole in (1, 2, 3, 5, 10):
+        yield whole * unit
+        yield -whole * unit
+
+
+__all__ = ["PARAMETER", "MetValues", "NumberSlot", "digits", "number_slots", "simplest", "values_of"]

@@ -1,0 +1,278 @@
+"""The causes of a part's deviations: changes that explain every case and make no row wrong.
+
+Where no single change does, a change that explains some cases and contradicts nothing is taken as drawn,
+and another one is looked for on top of it, up to three.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import partial
+from itertools import pairwise
+from time import process_time
+
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.recording import Raw
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.hypotheses import (
+    delay_changes,
+    extra_changes,
+    mutant_changes,
+    rewrite_changes,
+    signals_of,
+    timer_changes,
+    written_changes,
+)
+from rovercheck.checker.diagnosis.limits import PARAMETER, MetValues, NumberSlot, number_slots, values_of
+from rovercheck.checker.diagnosis.trial import Parameter, Trial, TrialBench
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import System
+
+SECONDS = 60.0
+"""How long the causes of one part are looked for, in seconds of the processor."""
+
+MOST_CHANGES = 3
+BROAD = 4
+"""Changes that explain some cases on which others are put."""
+
+MOST_DURATIONS = 40
+
+Clock = Callable[[], float]
+
+
+@dataclass(frozen=True)
+class ExplainingCause:
+    """One or more changes of a part that together explain ``trial``; the part as so changed."""
+
+    changes: tuple[ChartChange, ...]
+    trial: Trial
+    cone: LogCone
+    system: System
+
+    @property
+    def nearness(self) -> tuple[float, ...]:
+        """Fewer changes come first, then the nearer ones."""
+        return (len(self.changes), *(x for c in self.changes for x in c.nearness))
+
+
+@dataclass
+class PartDiagnosis:
+    """What was found out about one part.
+
+    ``causes`` explain every case, the nearest first.  ``partial`` is the best that does not, if none does.
+    ``tried`` changes ``of`` all; fewer only if the time was over.
+    """
+
+    evidence: PartEvidence
+    causes: list[ExplainingCause] = field(default_factory=list)
+    partial: ExplainingCause | None = None
+    tried: int = 0
+    of: int = 0
+    seconds: float = 0.0
+
+    @property
+    def complete(self) -> bool:
+        return self.tried == self.of
+
+
+def diagnosed(evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = process_time) -> PartDiagnosis:
+    """The causes of what one part does otherwise than the charts."""
+    found = PartDiagnosis(evidence)
+    start = clock()
+    _Search(found, start + seconds, clock).run()
+    found.seconds = clock() - start
+    return found
+
+
+class _Search:
+    def __init__(self, found: PartDiagnosis, until: float, clock: Clock) -> None:
+        self._found, self._until, self._clock = found, until, clock
+        self._evidence = found.evidence
+        self._bench = TrialBench(found.evidence)
+        self._met = MetValues(found.evidence)
+        self._outputs = len(found.evidence.cone.outputs)
+        self._some: list[ExplainingCause] = []
+
+    def run(self) -> None:
+        """Single changes first; where none explains all, changes on top of those that explain some."""
+        drawn = self._evidence.group.system
+        self._level(drawn, ())
+        bases = self._best(self._some)
+        for _ in range(MOST_CHANGES - 1):
+            if self._found.causes or not bases:
+                break
+            self._some = []
+            for base in bases:
+                self._level(base.system, base.changes)
+                if self._found.causes:
+                    break
+            bases = self._best(self._some) or []
+        self._found.causes.sort(key=lambda c: c.nearness)
+
+    def _best(self, some: list[ExplainingCause]) -> list[ExplainingCause]:
+        """Those that explain most without contradiction."""
+        good = [c for c in some if c.trial.wrong == 0 and c.trial.explained]
+        good.sort(key=lambda c: (-c.trial.explained, c.nearness))
+        for one in good[:1]:
+            best = self._found.partial
+            if best is None or one.trial.explained > best.trial.explained:
+                self._found.partial = one
+        return good[:BROAD]
+
+    def _level(self, system: System, before: tuple[ChartChange, ...]) -> None:
+        only = frozenset(part.name for part in parts(system.components))
+        self._limits(system, before, only)
+        changes = self._changes(system, only)
+        changes.sort(key=lambda c: c.nearness)
+        self._found.of += len(changes)
+        for change in changes:
+            if self._clock() > self._until:
+                return
+            self._found.tried += 1
+            self._try(change, before)
+        if not self._found.causes:
+            extra = list(extra_changes(system, only))
+            self._found.of += len(extra)
+            for change in extra:
+                if self._clock() > self._until:
+                    return
+                self._found.tried += 1
+                self._try(change, before)
+
+    def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
+        found: list[ChartChange] = []
+        found += written_changes(self._evidence.group.board, system)
+        found += timer_changes(system, self._durations(), only)
+        found += mutant_changes(system)
+        found += rewrite_changes(system, self._signals(), only)
+        outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
+        found += delay_changes(system, only, outputs)
+        return found
+
+    def _signals(self) -> dict[str, Var]:
+        """What the part might read by mistake, as far as it is recorded."""
+        known = {n for run in self._evidence.runs for n in run.columns}
+        return {n: v for n, v in signals_of(self._evidence.group.board).items() if n in known}
+
+    def _durations(self) -> list[int]:
+        """How many steps before a case something of the part changed."""
+        found: dict[int, int] = {}
+        names = [v.name for v in self._evidence.cone.system.inputs]
+        names += [o.var.name for o in self._evidence.cone.outputs]
+        for run in self._evidence.deviating:
+            columns = [c for n in names if (c := run.columns.get(n)) and not _ages(c)]
+            for case in run.cases(self._evidence.name)[:10]:
+                for edge in (case.first, case.last + 1):
+                    for back in range(1, min(edge, 700)):
+                        at = edge - back
+                        if any(at < len(c) and c[at] != c[at - 1] for c in columns):
+                            for steps in (back - 1, back, back + 1):
+                                found[steps] = found.get(steps, 0) + 1
+        likely = sorted(found, key=lambda n: (-found[n], n))[:MOST_DURATIONS]
+        return [*likely, 5, 10, 25, 50, 100, 150, 200, 250]
+
+    def _cone(self, system: System) -> LogCone | None:
+        """The changed part, or None where it has no meaning or no longer gives what is compared."""
+        try:
+            cone = self._evidence.group.cone(system)
+        except (ModelError, StopIteration, RecursionError, AssertionError):
+            return None
+        return cone if len(cone.outputs) == self._outputs else None
+
+    def _try(self, change: ChartChange, before: tuple[ChartChange, ...]) -> None:
+        try:
+            system = change.make()
+        except (ModelError, AssertionError, ValueError):
+            return
+        cone = self._cone(system)
+        if cone is not None:
+            self._judge(cone, lambda: change, before, system)
+
+    def _judge(
+        self,
+        cone: LogCone,
+        change: Callable[[], ChartChange],
+        before: tuple[ChartChange, ...],
+        system: System | None,
+        parameter: Parameter | None = None,
+    ) -> bool:
+        """Note a change if it explains all, or some; whether it explains all."""
+        at = self._bench.rejected(cone, parameter)
+        if at is not None and not self._bench.goes_further(at):
+            return False
+        trial = self._bench.trial(cone, parameter)
+        if not (trial.full or trial.explained):
+            return False
+        made = change()
+        whole = system if system is not None else made.make()
+        real = cone if parameter is None else self._cone(whole)
+        if real is None:
+            return False
+        cause = ExplainingCause((*before, made), trial, real, whole)
+        if trial.full and at is None:
+            self._found.causes.append(cause)
+            return True
+        self._some.append(cause)
+        return False
+
+    # --- limits ---
+
+    def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
+        factors = self._factors()
+        for slot in number_slots(system, only):
+            values = values_of(slot, self._met, factors)
+            self._found.of += len(values)
+            cones: dict[Op | None, LogCone | None] = {}
+            explained = tried = 0
+            for op, raw in sorted(values, key=lambda v: slot.change(*v).nearness):
+                made = partial(slot.change, op, raw, values[op, raw])
+                if self._clock() > self._until:
+                    return
+                self._found.tried, tried = self._found.tried + 1, tried + 1
+                if op not in cones:
+                    cones[op] = self._opened(slot, op)
+                cone = cones[op]
+                if cone is not None and self._judge(cone, made, before, None, (PARAMETER, raw)):
+                    explained += 1
+                if explained >= 2:  # of one limit the two simplest say enough
+                    self._found.of -= len(values) - tried
+                    break
+
+    def _opened(self, slot: NumberSlot, op: Op | None) -> LogCone | None:
+        try:
+            return self._cone(slot.opened(op))
+        except (ModelError, AssertionError):
+            return None
+
+    def _factors(self) -> list[Fraction]:
+        """How many times what is required is recorded, of outputs that are measured."""
+        found: dict[Fraction, None] = {}
+        for run in self._evidence.deviating:
+            for _, mismatch in run.wrong[self._evidence.name][:200]:
+                for difference in mismatch.differences:
+                    if isinstance(difference.output.var.domain.sort, Num):
+                        for wanted in difference.expected[:2]:
+                            if difference.logged is not None:
+                                found.update(_ratio(wanted, difference.logged))
+            if len(found) > 40:
+                break
+        return list(found)[:40]
+
+
+def _ratio(wanted: Raw, got: Raw) -> Iterator[tuple[Fraction, None]]:
+    if wanted:
+        yield (Fraction(got) / Fraction(wanted)).limit_denominator(1000), None
+
+
+def _ages(cells: Sequence[Raw | None]) -> bool:
+    """Whether a column changes in most rows."""
+    some = cells[:400]
+    return sum(a != b for a, b in pairwise(some)) > len(some) / 4
+
+
+__all__ = ["ExplainingCause", "PartDiagnosis", "diagnosed"]

@@ -1,0 +1,51 @@
+"""Causes told as sentences."""
+
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.decide import DecidingRun
+from rovercheck.checker.diagnosis.result import DiagnosedPart
+from rovercheck.checker.diagnosis.search import ExplainingCause
+
+WITH = ("limit", "constant", "timer", "repair")
+"""Kinds whose text is what there is instead of what is drawn."""
+
+
+def behaves(cause: ExplainingCause) -> str:
+    """What the part is like: "Monitor_temperature behaves as with a limit of 55 °C ..."."""
+    first = cause.changes[0]
+    return f"{first.chart} behaves {' and '.join(map(like, cause.changes))}"
+
+
+def like(change: ChartChange) -> str:
+    """One change, as what something behaves like."""
+    if change.kind == "interpretation":
+        return f"as under the interpretation {change.text}"
+    word = "as with" if change.kind in WITH else "as if"
+    return f"{word} {change.text}"
+
+
+def explained(part: DiagnosedPart) -> str:
+    """The nearest cause and what it explains."""
+    if part.cause is None:
+        return f"{part.name}: no single change found for {_cases(part.cases)} in {_runs(part)}"
+    return f"{behaves(part.cause)}: explains {part.cases} of {_cases(part.cases)} in {_runs(part)}"
+
+
+def _cases(number: int) -> str:
+    return f"{number:,} case" if number == 1 else f"{number:,} cases"
+
+
+def _runs(part: DiagnosedPart) -> str:
+    number = len(part.runs)
+    return f"{number} recording" if number == 1 else f"{number} recordings"
+
+
+def inputs_told(run: DecidingRun) -> str:
+    """The inputs of a run: "from power-up T = 57 for 201 steps, then T = 20 for 1 step"."""
+    parts = []
+    for block in run.blocks:
+        changes = ", ".join(f"{name} = {value}" for name, value in block.changes) or "no change"
+        parts.append(f"{changes} for {block.steps} step{'s' if block.steps > 1 else ''}")
+    return f"from power-up {', then '.join(parts)}"
+
+
+__all__ = ["behaves", "explained", "inputs_told", "like"]

@@ -1,0 +1,181 @@
+"""A changed part tried on the recordings: whether it explains them all, and what it still gets wrong."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.estimator import StateEstimator
+from rovercheck.checker.conformance.program import BeliefOutcome, Known, NeededInputs, Step
+from rovercheck.checker.conformance.recording import Raw
+from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
+from rovercheck.checker.diagnosis.evidence import PartEvidence, inputs_of, logged_of
+
+MOST_STATES = 64
+"""States that are followed side by side before the tracker takes over."""
+
+Parameter = tuple[str, Raw]
+"""An input that always has one value: a limit that is tried."""
+
+Rows = Sequence[tuple[tuple[Known, ...], Known]]
+"""Of each row every combination of inputs that the part may have seen, and its outputs."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """How a change does: cases explained of all, and rows that become wrong by it."""
+
+    explained: int
+    cases: int
+    wrong: int
+    left: tuple[tuple[int, int], ...] = ()
+    """The run and the row of the first cases that are not explained."""
+
+    @property
+    def full(self) -> bool:
+        return self.explained == self.cases and not self.wrong
+
+
+class TrialBench:
+    """Tries changes of one part; the rows are prepared once for all that read the same."""
+
+    def __init__(self, evidence: PartEvidence) -> None:
+        self.evidence = evidence
+        deviating = evidence.deviating
+        firsts = {id(run): run.cases(evidence.name)[0].first for run in deviating}
+        self.runs = sorted(evidence.runs, key=lambda run: firsts.get(id(run), 10**9 + len(run)))
+        """Those with the earliest deviations first."""
+        self._first = [firsts.get(id(run)) for run in self.runs]
+        self._order = list(range(len(self.runs)))
+        self._rows: dict[tuple[object, ...], list[Rows | None]] = {}
+
+    def rejected(self, cone: LogCone, parameter: Parameter | None = None) -> tuple[int, int] | None:
+        """The run and the row of a first contradiction; ``None``: every row of every run is explained.
+
+        The run that rejected the last change is tried first.
+        """
+        step = cone.step if parameter is None else with_parameter(cone, *parameter)
+        rows = self._prepared(cone)
+        for place, number in enumerate(self._order):
+            found = self._first_wrong(cone, step, number, rows, parameter)
+            if found is not None:
+                self._order.insert(0, self._order.pop(place))
+                return number, found
+        return None
+
+    def trial(self, cone: LogCone, parameter: Parameter | None = None) -> Trial:
+        """All that a change explains, and all that it gets wrong."""
+        explained = cases = wrong = 0
+        left: list[tuple[int, int]] = []
+        for number, run in enumerate(self.runs):
+            bad = set(self._tracked(cone, number, parameter))
+            within = set[int]()
+            for case in run.cases(self.evidence.name):
+                rows = range(case.first, case.last + 1)
+                within.update(rows)
+                cases += 1
+                if bad.isdisjoint(rows):
+                    explained += 1
+                else:
+                    left.append((number, case.first))
+            wrong += len(bad - within)
+        return Trial(explained, cases, wrong, tuple(left))
+
+    def goes_further(self, at: tuple[int, int]) -> bool:
+        """Whether a change that fails there has explained the first deviation of that run."""
+        first = self._first[at[0]]
+        return first is not None and at[1] > first
+
+    # --- rows ---
+
+    def _prepared(self, cone: LogCone) -> list[Rows | None]:
+        names = tuple((v.name, v.name in cone.before) for v in cone.system.inputs)
+        key = (names, tuple(o.name for o in cone.outputs))
+        if key not in self._rows:
+            self._rows[key] = [None] * len(self.runs)
+        return self._rows[key]
+
+    def _of(self, cone: LogCone, number: int, rows: list[Rows | None]) -> Rows:
+        found = rows[number]
+        if found is None:
+            run = self.runs[number]
+            plain, logged = inputs_of(cone, run), logged_of(cone, run)
+            given: list[tuple[Known, ...]] = [(one,) for one in plain]
+            options = run.options.get(self.evidence.name, {})
+            for place, var in enumerate(cone.system.inputs):
+                for at, values in options.get(var.name, {}).items():
+                    given[at] = tuple(
+                        (*one[:place], value, *one[place + 1 :]) for one, value in product(given[at], values)
+                    )
+            end = run.undecided.get(self.evidence.name, len(run))
+            found = rows[number] = list(zip(given, logged, strict=True))[:end]
+        return found
+
+    # --- following ---
+
+    def _first_wrong(
+        self, cone: LogCone, step: Step, number: int, rows: list[Rows | None], parameter: Parameter | None
+    ) -> int | None:
+        run = self.runs[number]
+        if run.run.from_power_up and not any(run.missing):
+            try:
+                return self._followed(cone, step, number, rows)
+            except (NeededInputs, _TooManyStates):
+                pass
+        return next(self._tracked(cone, number, parameter), None)
+
+    def _followed(self, cone: LogCone, step: Step, number: int, rows: list[Rows | None]) -> int | None:
+        """The first row that is wrong, where everything that the part reads is known."""
+        estimator = StateEstimator(cone, self.runs[number].run.tolerance)
+
+        def agrees(outputs: Known, logged: Known) -> bool:
+            return estimator.explains(BeliefOutcome((), (), outputs), logged)
+
+        states = list(estimator.power_up())
+        for at, (options, logged) in enumerate(self._of(cone, number, rows)):
+            if len(options) == 1 and len(states) == 1:
+                states[0], outputs = step(states[0], options[0])
+                if outputs != logged and not agrees(outputs, logged):
+                    return at
+                continue
+            found = [step(before, given) for given in options for before in states]
+            states = list(dict.fromkeys(s for s, out in found if out == logged or agrees(out, logged)))
+            if not states:
+                return at
+            if len(states) > MOST_STATES:
+                raise _TooManyStates
+        return None
+
+    def _tracked(self, cone: LogCone, number: int, parameter: Parameter | None) -> Iterator[int]:
+        """Every row that is wrong or not decided, by a tracker, which infers what is not recorded."""
+        run = self.runs[number]
+        tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up)
+        place = None if parameter is None else _place(cone, parameter[0])
+        for at, (options, logged) in enumerate(self._of(cone, number, self._prepared(cone))):
+            columns = [tuple(dict.fromkeys(c)) for c in zip(*options, strict=True)]
+            if place is not None and parameter is not None:
+                columns[place] = (parameter[1],)
+            row = TrackedRow(run.ticks[at], run.lines[at], run.missing[at], tuple(columns), logged)
+            if tracker.step(row) is not None or tracker.undecided is not None:
+                yield at
+            if tracker.undecided is not None:
+                return
+
+
+class _TooManyStates(Exception):
+    """More states than are followed side by side."""
+
+
+def with_parameter(cone: LogCone, name: str, value: Raw) -> Step:
+    """The step of a part in which an input always has one value, whatever it is given."""
+    place, step = _place(cone, name), cone.step
+    if place is None:
+        return step
+    return lambda state, given: step(state, (*given[:place], value, *given[place + 1 :]))
+
+
+def _place(cone: LogCone, name: str) -> int | None:
+    return next((i for i, v in enumerate(cone.system.inputs) if v.name == name), None)
+
+
+__all__ = ["Parameter", "Trial", "TrialBench", "with_parameter"]

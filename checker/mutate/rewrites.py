@@ -1,0 +1,291 @@
+"""Changes of one part beyond the counted mutants: any other member, bit, target, order, signal; operands
+exchanged, parts negated, transitions added.
+
+They are hypotheses about a cause, and many: what counts mutants does not make them.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from rovercheck.checker.mutate.charts import transition_lists
+from rovercheck.checker.mutate.formulas import TIMED
+from rovercheck.checker.mutate.places import FormulaPlace, formula_places, nodes_in
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import Block, Chart, Path
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num
+from rovercheck.spec_model.lang.edit import everywhere, in_actions, in_block, in_expressions
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Temporal, Var
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.time import Span
+from rovercheck.spec_model.lang.transition import to
+from rovercheck.spec_model.lang.walk import structure
+
+BITS = 8
+
+
+@dataclass(frozen=True)
+class Rewrite:
+    """A part changed in one respect: of what kind, where, what stood there and what stands there."""
+
+    kind: str
+    site: str
+    old: str
+    new: str
+    part: Chart | Block
+
+
+def rewrites(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewrite]:
+    """Changes of a part, the nearer ones first; ``others``: signals that it might read by mistake."""
+    places = list(formula_places(part))
+    for place in places:
+        yield from _of_formula(place)
+    if isinstance(part, Chart):
+        yield from _targets(part)
+        yield from _orders(part)
+    yield from _signals(part, places, others)
+    yield from _exchanged(part, others)
+
+
+def timer_rewrites(part: Chart | Block, step_ms: int, steps: Sequence[int]) -> Iterator[Rewrite]:
+    """Each timer with other numbers of steps, alone and together with those of the same formula."""
+    places = list(formula_places(part))
+    found: dict[object, list[Temporal]] = {}
+    for place in places:
+        for node, put in nodes_in(place.formula):
+            if not (isinstance(node, Temporal) and node.when in TIMED and node.span is not None):
+                continue
+            found.setdefault((node.when, node.span, structure(node)), []).append(node)
+            for new in _spans(node, step_ms, steps):
+                yield Rewrite("timer", place.site, str(node), str(new), place.put(put(new)))
+    for same in found.values():
+        if len(same) > 1:
+            for new in _spans(same[0], step_ms, steps):
+                changed = everywhere_in(part, same[0], new)
+                yield Rewrite("timer", "everywhere", str(same[0]), str(new), changed)
+
+
+def _spans(node: Temporal, step_ms: int, steps: Sequence[int]) -> Iterator[Temporal]:
+    assert node.span is not None
+    unit = Fraction(1 if node.span.unit == "ticks" else step_ms)
+    now = node.span.amount / unit
+    for count in sorted({int(now) + d for d in (-2, -1, 1, 2)} | set(steps), key=lambda n: (abs(n - now), n)):
+        if count >= 0 and count != now:
+            yield replace(node, span=Span(count * unit, node.span.unit))
+
+
+def everywhere_in(part: Chart | Block, old: Expr, new: Expr) -> Chart | Block:
+    """The part with every formula that is built like ``old`` replaced."""
+    return mapped(part, lambda node: new if same_shape(node, old) else node)
+
+
+def same_shape(one: Expr, two: Expr) -> bool:
+    """Whether two formulas are built alike."""
+    return type(one) is type(two) and structure(one) == structure(two)
+
+
+def mapped(part: Chart | Block, change: Callable[[Expr], Expr]) -> Chart | Block:
+    """The part with every node of its formulas changed, innermost first."""
+
+    def walk(expr: Expr) -> Expr:
+        return everywhere(expr, change)
+
+    return in_block(part, walk) if isinstance(part, Block) else in_expressions(part, walk)
+
+
+def _of_formula(place: FormulaPlace) -> Iterator[Rewrite]:
+    for node, put in nodes_in(place.formula):
+        for kind, new in _of_node(node, node is place.formula):
+            yield Rewrite(kind, place.site, str(node), str(new), place.put(put(new)))
+
+
+def _of_node(node: Expr, whole: bool) -> Iterator[tuple[str, Expr]]:
+    match node:
+        case Apply(Op.BIT, (mask, Const(index, sort))):
+            for other in range(BITS):
+                if other not in (index, index + 1):  # the next one is a counted mutant
+                    yield "bit", replace(node, args=(mask, Const(other, sort)))
+        case Apply(Op.SUB, (left, right)):
+            yield "operands", replace(node, args=(right, left))
+        case Apply(op, (left, right)) if op in COMPARISONS and op not in (Op.EQ, Op.NE):
+            if not (isinstance(left, Const) or isinstance(right, Const)):
+                yield "operands", replace(node, args=(right, left))
+        case Const(value, Enum(_, members) as sort):
+            for _, number in members:
+                if number != value:
+                    yield "member", Const(number, sort)
+        case _:
+            pass
+    if isinstance(node.sort, Bool) and not whole and not isinstance(node, Const):
+        yield "negated", Apply(Op.NOT, (node,), Bool())
+
+
+def _signals(
+    part: Chart | Block, places: Sequence[FormulaPlace], others: Mapping[str, Var]
+) -> Iterator[Rewrite]:
+    """Another signal of the same kind read in one place."""
+    for place in places:
+        for node, put in nodes_in(place.formula):
+            if isinstance(node, Var):
+                for other in _alike(node, others):
+                    yield Rewrite("signal", place.site, node.name, other.name, place.put(put(other)))
+
+
+def _alike(var: Var, others: Mapping[str, Var]) -> Iterator[Var]:
+    for other in others.values():
+        if other.name != var.name and other.sort == var.sort:
+            yield other
+
+
+def _exchanged(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewrite]:
+    """A signal read in place of another wherever it is read; two of them exchanged."""
+    for name, var in part.read.items():
+        if name in part.written:
+            continue
+        for other in _alike(var, others):
+            if other.name in part.read and other.name < name:
+                continue
+            swap = {name: other, other.name: var}
+            yield Rewrite("exchanged", "everywhere", name, other.name, _renamed(part, swap))
+
+
+def _renamed(part: Chart | Block, swap: Mapping[str, Var]) -> Chart | Block:
+    def change(expr: Expr) -> Expr:
+        match expr:
+            case Var(name):
+                return swap.get(name, expr)
+            case Apply(op, args, sort):
+                return Apply(op, tuple(map(change, args)), sort)
+            case Temporal(_, arg, _, _) if arg is not None:
+                return replace(expr, arg=change(arg))
+        body = getattr(expr, "body", None)
+        return expr if body is None else change(body)
+
+    return in_block(part, change) if isinstance(part, Block) else in_expressions(part, change)
+
+
+# --- memory --------------------------------------------------------------------------------------------
+
+
+def shared_memory(part: Chart | Block) -> Iterator[Rewrite]:
+    """Two data of a part in one place of memory."""
+    data = [v for n, v in part.written.items()]
+    for number, one in enumerate(data):
+        for two in data[number + 1 :]:
+            if one.domain == two.domain:
+                yield Rewrite("shared", "memory", two.name, one.name, with_memory(part, {two.name: one}))
+    for first, second in _families(part):
+        yield Rewrite(
+            "shared", "buffers", second, first, with_memory(part, dict(_pairs(part, first, second)))
+        )
+
+
+def _families(part: Chart | Block) -> Iterator[tuple[str, str]]:
+    """Beginnings of names after which several data are named alike: buffers of two links."""
+    names = list(part.written)
+    heads = list(dict.fromkeys(n.rsplit("_", k)[0] + "_" for n in names for k in (1, 2) if n.count("_") >= k))
+    for number, one in enumerate(heads):
+        for two in heads[number + 1 :]:
+            if sum(1 for _ in _pairs(part, one, two)) > 1:
+                yield one, two
+
+
+def _pairs(part: Chart | Block, one: str, two: str) -> Iterator[tuple[str, Var]]:
+    for name, var in part.written.items():
+        twin = part.written.get(one + name.removeprefix(two)) if name.startswith(two) else None
+        if twin is not None and twin.name != name and twin.domain == var.domain:
+            yield name, twin
+
+
+def with_memory(part: Chart | Block, instead_of: Mapping[str, Var]) -> Chart | Block:
+    """The part with other data read and written in place of some."""
+
+    def act(action: Action) -> Action:
+        match action:
+            case Assign(var, value):
+                return Assign(instead_of.get(var.name, var), value)
+            case If(condition, then, otherwise):
+                return If(condition, tuple(map(act, then)), tuple(map(act, otherwise)))
+        return action
+
+    read = _renamed(part, instead_of)
+    if isinstance(read, Block):
+        return Block(read.name, tuple(map(act, read.do)), text=read.text, place=read.place)
+    return in_actions(read, act)
+
+
+# --- transitions ----------------------------------------------------------------------------------------
+
+
+def _targets(chart: Chart) -> Iterator[Rewrite]:
+    """Every other target beside the one that is drawn."""
+    for one in transition_lists(chart):
+        for number, segment in enumerate(one.segments):
+            for target in _reachable(chart, one.level, segment.target):
+                new = [replace(s, target=target) if i == number else s for i, s in enumerate(one.segments)]
+                yield Rewrite("target", f"{one.site}.{number + 1}", segment.target, target, one.changed(new))
+
+
+def _reachable(chart: Chart, level: Path, drawn: str) -> Iterator[str]:
+    """States at the level of a transition, as they are written there."""
+    inside = chart.states.get(level)
+    for state in () if inside is None or inside.parallel else inside.states:
+        if state.name != drawn and chart.resolve(level, state.name) == (*level, state.name):
+            yield state.name
+
+
+def _orders(chart: Chart) -> Iterator[Rewrite]:
+    """Each transition tested first, or last."""
+    for one in transition_lists(chart):
+        count = len(one.segments)
+        for number, segment in enumerate(one.segments):
+            rest = [s for i, s in enumerate(one.segments) if i != number]
+            for word, new in (("first", [segment, *rest]), ("last", [*rest, segment])):
+                if count > 2 and new != list(one.segments):
+                    yield Rewrite(
+                        "order", f"{one.site}.{number + 1}", f"transition {number + 1}", word,
+                        one.changed(new),
+                    )  # fmt: skip
+
+
+def extra_transitions(chart: Chart, conditions: Sequence[Expr]) -> Iterator[Rewrite]:
+    """Transitions that are not drawn, from each state to each beside it, tested first or last."""
+    for one in transition_lists(chart):
+        for target in () if one.default else _reachable(chart, one.level, ""):
+            if one.site == f"arrow/{'.'.join((*one.level, target))}":
+                continue
+            for condition in (*conditions, TRUE):
+                more = to(target) if condition is TRUE else to(target, when=condition)
+                for word in ("first", "last"):
+                    new = [more, *one.segments] if word == "first" else [*one.segments, more]
+                    yield Rewrite(
+                        "extra", one.site, f"no transition to {target}", f"{word}: [{condition}] to {target}",
+                        one.changed(new),
+                    )  # fmt: skip
+
+
+Written = tuple[FormulaPlace, Expr, Callable[[Expr], Expr], Apply | None]
+
+
+def numbers_in(part: Chart | Block) -> Iterator[Written]:
+    """Every number that is written in a part, with the comparison that it is the limit of, if it is one."""
+    for place in formula_places(part):
+        inside: set[int] = set()
+        for node, put in nodes_in(place.formula):
+            if isinstance(node, Apply) and node.op in COMPARISONS and _is_limit(node):
+                inside.add(id(node.args[1]))
+                inside.add(id(node.args[0]))
+                yield place, node, put, node
+            elif isinstance(node, Const) and isinstance(node.sort, Num) and id(node) not in inside:
+                yield place, node, put, None
+
+
+def _is_limit(node: Apply) -> bool:
+    left, right = node.args
+    return isinstance(left.sort, Num) and isinstance(left, Const) != isinstance(right, Const)
+
+
+__all__ = [
+    "Rewrite", "everywhere_in", "extra_transitions", "mapped", "numbers_in", "rewrites", "same_shape",
+    "shared_memory", "timer_rewrites", "with_memory",
+]  # fmt: skip
