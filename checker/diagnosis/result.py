@@ -6,7 +6,9 @@ from dataclasses import dataclass, field
 from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence, RecordedRun
 from rovercheck.checker.diagnosis.search import SECONDS, ExplainingCause, PartDiagnosis, diagnosed
+from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_RIVALS = 3
 """Other causes that explain as much, told beside the nearest."""
@@ -95,25 +97,32 @@ def diagnose_board(
 
 
 def _together(diagnoses: Sequence[PartDiagnosis]) -> list[list[PartDiagnosis]]:
-    """Recordings with other columns take a part apart in another way: those with a common cause together."""
-    groups: list[tuple[list[PartDiagnosis], list[tuple[object, ...]]]] = []
-    for one in diagnoses:
-        keys = [_key(c) for c in one.causes]
-        for group, common in groups:
-            if both := [k for k in common if k in keys] or ([] if keys or common else [()]):
+    """Recordings with other columns take a part apart in another way: those with a common cause together.
+
+    The first of each group, which has most cases, keeps the causes that explain all of the group.
+    """
+    groups: list[list[PartDiagnosis]] = []
+    for one in sorted(diagnoses, key=lambda d: -d.evidence.cases):
+        for group in groups:
+            common = [cause for cause in group[0].causes if _explains(cause, one)]
+            if common or not (group[0].causes or one.causes):
+                group[0].causes[:] = common
                 group.append(one)
-                common[:] = both
                 break
         else:
-            groups.append(([one], keys))
-    for group, common in groups:
-        for one in group:
-            one.causes.sort(key=lambda c: (_key(c) not in common, c.nearness))
-    return [group for group, _ in groups]
+            groups.append([one])
+    return groups
 
 
-def _key(cause: ExplainingCause) -> tuple[object, ...]:
-    return tuple(c.key for c in cause.changes)
+def _explains(cause: ExplainingCause, other: PartDiagnosis) -> bool:
+    """Whether a cause explains the recordings of another diagnosis of the part, too."""
+    evidence = other.evidence
+    try:
+        cone = evidence.group.cone(cause.system)
+    except (ModelError, StopIteration):
+        return False
+    same = len(cone.outputs) == len(evidence.cone.outputs)
+    return same and TrialBench(evidence).rejected(cone) is None
 
 
 def _told(name: str, group: Sequence[PartDiagnosis]) -> DiagnosedPart:
