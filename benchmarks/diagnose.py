@@ -25,7 +25,7 @@ from rovercheck.checker.conformance.program import ProgramOutput, compiled
 from rovercheck.checker.conformance.recording import LogBlock
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.decide import RunSearch
-from rovercheck.checker.diagnosis.evidence import RecordedRun
+from rovercheck.checker.diagnosis.evidence import Recording
 from rovercheck.checker.diagnosis.hypotheses import (
     delay_changes,
     mutant_changes,
@@ -97,13 +97,13 @@ def required(name: str, number: int) -> tuple[tuple[object, ...], ...]:
     return tuple(outputs(board, board.system, drives(name)[number]))
 
 
-def recorded(board: Board, name: str, inputs: Inputs, given: Sequence[Sequence[object]]) -> RecordedRun:
+def recorded(board: Board, name: str, inputs: Inputs, given: Sequence[Sequence[object]]) -> Recording:
     """Inputs and outputs as a recorded run."""
     values = {s.name: [s.raw(row[s.name]) for row in inputs] for s in board.inputs}
     columns = {o.name: [row[i] for row in given] for i, o in enumerate(board.outputs)}
     steps = range(1, len(inputs) + 1)
     block = LogBlock(list(steps), list(steps), [0] * len(inputs), {**values, **columns})  # type: ignore[dict-item]
-    return RecordedRun(name, frozenset(block.values), True, lambda: [block])
+    return Recording(name, frozenset(block.values), True, lambda: [block])
 
 
 def planted(board: Board, count: int, random: Random) -> Iterator[ChartChange]:

@@ -18,7 +18,7 @@ Options = dict[str, dict[int, tuple[Raw | None, ...]]]
 
 
 @dataclass(frozen=True)
-class RecordedRun:
+class Recording:
     """A recorded run of a board, whoever recorded it.
 
     ``signals``: what it holds, inputs and outputs, by name.  ``blocks`` gives its rows from the first, each
@@ -49,7 +49,7 @@ class DecodedRun:
     ``undecided``: by the name of a part the row from which on it is not decided.
     """
 
-    run: RecordedRun
+    run: Recording
     columns: dict[str, Cells]
     ticks: list[int]
     lines: list[int]
@@ -117,7 +117,7 @@ class EvidenceCollector:
         self._runs: dict[Seen, list[DecodedRun]] = {}
         self._behaviours: dict[str, Behaviour] = {}
 
-    def add(self, run: RecordedRun) -> None:
+    def add(self, run: Recording) -> None:
         """Follow a run.  Raises what reading its blocks raises."""
         decoder = InputDecoder(self._vocabulary, run.signals, run.from_power_up)
         key = decoder.seen, run.signals - self._vocabulary.inputs
@@ -197,6 +197,6 @@ def inputs_of(cone: LogCone, run: DecodedRun) -> list[Known]:
 
 
 __all__ = [
-    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "RecordedRun",
+    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "Recording",
     "inputs_of", "logged_of",
 ]  # fmt: skip

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rovercheck.checker.conformance.recording import LogBlock
-from rovercheck.checker.diagnosis.evidence import RecordedRun
+from rovercheck.checker.diagnosis.evidence import Recording
 from rovercheck.checker.logs.log import open_log
 from rovercheck.checker.logs.mapping import ColumnMap
 
@@ -16,7 +16,7 @@ class LoggedRun:
     """A log as a recorded run of a board."""
 
     board: str
-    run: RecordedRun
+    run: Recording
 
 
 def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
@@ -31,7 +31,7 @@ def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
         next(found)
     layout = log.layout
     tolerance = {c.signal: c.tolerance for c in layout.stated.values() if c.tolerance is not None}
-    run = RecordedRun(path.name, layout.signals, log.start == "power-up", blocks, tolerance)
+    run = Recording(path.name, layout.signals, log.start == "power-up", blocks, tolerance)
     return LoggedRun(layout.board, run)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence, RecordedRun
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence, Recording
 from rovercheck.checker.diagnosis.search import SECONDS, ExplainingCause, PartDiagnosis, diagnosed
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction import Board
@@ -68,7 +68,7 @@ class BoardDiagnosis:
 
 def diagnose_board(
     board: Board,
-    runs: Iterable[RecordedRun],
+    runs: Iterable[Recording],
     seconds: float = SECONDS,
     progress: Callable[[str], None] = lambda _: None,
 ) -> BoardDiagnosis:

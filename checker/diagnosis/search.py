@@ -26,6 +26,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
 )
 from rovercheck.checker.diagnosis.limits import PARAMETER, MetValues, NumberSlot, number_slots, values_of
 from rovercheck.checker.diagnosis.trial import Parameter, Trial, TrialBench
+from rovercheck.spec_model.abstraction.signals import whole
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
@@ -202,18 +203,21 @@ class _Search:
         parameter: Parameter | None = None,
     ) -> bool:
         """Note a change if it explains all, or some; whether it explains all."""
-        at = self._bench.rejected(cone, parameter)
-        if at is not None and not self._bench.goes_further(at):
+        try:
+            at = self._bench.rejected(cone, parameter)
+            if at is not None and not self._bench.goes_further(at):
+                return False
+            trial = self._bench.trial(cone, parameter)
+        except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
             return False
-        trial = self._bench.trial(cone, parameter)
         if not (trial.full or trial.explained):
             return False
         made = change()
-        whole = system if system is not None else made.make()
-        real = cone if parameter is None else self._cone(whole)
+        changed = system if system is not None else made.make()
+        real = cone if parameter is None else self._cone(changed)
         if real is None:
             return False
-        cause = ExplainingCause((*before, made), trial, real, whole)
+        cause = ExplainingCause((*before, made), trial, real, changed)
         if trial.full and at is None:
             self._found.causes.append(cause)
             return True
@@ -236,8 +240,8 @@ class _Search:
                 self._found.tried, tried = self._found.tried + 1, tried + 1
                 if op not in cones:
                     cones[op] = self._opened(slot, op)
-                cone = cones[op]
-                if cone is not None and self._judge(cone, made, before, None, (PARAMETER, raw)):
+                cone, value = cones[op], whole(raw)
+                if cone is not None and self._judge(cone, made, before, None, (PARAMETER, value)):
                     explained += 1
                 if explained >= 2:  # of one limit the two simplest say enough
                     self._found.of -= len(values) - tried

@@ -6,7 +6,7 @@ from random import Random
 
 from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
 from rovercheck.checker.conformance.recording import LogBlock, Raw
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector, RecordedRun
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, Recording
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
 from rovercheck.spec_model.abstraction import Board, Value, boards
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
@@ -60,7 +60,7 @@ def restless(board: str, seed: int, steps: int = 450) -> tuple[Row, ...]:
     return tuple(inputs(board, held))
 
 
-def recorded(board: str, system: System, rows: Sequence[Mapping[str, Value]], name: str) -> RecordedRun:
+def recorded(board: str, system: System, rows: Sequence[Mapping[str, Value]], name: str) -> Recording:
     """A run of a changed board, as its lowered charts go through it."""
     own, lowered = boards()[board], lower(system)
     reader = own.reader()
@@ -75,7 +75,7 @@ def recorded(board: str, system: System, rows: Sequence[Mapping[str, Value]], na
             values[o.name].append(value)
     steps = range(1, len(rows) + 1)
     block = LogBlock([n + 1 for n in steps], list(steps), [0] * len(rows), values)
-    return RecordedRun(name, frozenset(values), True, lambda: [block])
+    return Recording(name, frozenset(values), True, lambda: [block])
 
 
 def changed(board: str, part: str, edit: Callable[[Chart | Block], Chart | Block]) -> System:
@@ -93,7 +93,7 @@ def diagnosis(board: str, system: System, *runs: Sequence[Mapping[str, Value]]) 
     return diagnose_board(boards()[board], made, SECONDS)
 
 
-def deviating(board: Board, runs: Sequence[RecordedRun]) -> list[str]:
+def deviating(board: Board, runs: Sequence[Recording]) -> list[str]:
     """The parts of a board that deviate in some run."""
     collector = EvidenceCollector(board)
     for run in runs:

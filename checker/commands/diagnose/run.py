@@ -9,7 +9,7 @@ from rovercheck.checker.commands.diagnose.text import page
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.diagnosis.evidence import RecordedRun
+from rovercheck.checker.diagnosis.evidence import Recording
 from rovercheck.checker.diagnosis.logs import logged_run
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
 from rovercheck.checker.diagnosis.sentences import like
@@ -101,9 +101,9 @@ def _boards(file: Path | None) -> Mapping[str, Board]:
 
 def _read(
     logs: Sequence[Path], how: ColumnMap, system: str, found: FoundCauses
-) -> Mapping[str, list[RecordedRun]]:
+) -> Mapping[str, list[Recording]]:
     """The logs of each board that can be read to their ends."""
-    runs: dict[str, list[RecordedRun]] = {}
+    runs: dict[str, list[Recording]] = {}
     for log in logs:
         try:
             one = logged_run(log, how, system)
