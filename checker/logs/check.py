@@ -8,6 +8,7 @@ from pathlib import Path
 from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.follower import Behaviour, BoardFollower
 from rovercheck.checker.conformance.recording import LogBlock
+from rovercheck.checker.logs.errors import LogError
 from rovercheck.checker.logs.invalid import Invalid
 from rovercheck.checker.logs.log import Log, LogLayout, open_log
 from rovercheck.checker.logs.mapping import ColumnMap
@@ -33,7 +34,8 @@ class Gap:
 class LogResult:
     """What was found in one log; ``gaps`` are the first ones, ``missing`` the steps lost in all.
 
-    ``invalid``: cells without meaning; their values are unknown in all the rest.
+    ``invalid``: cells without meaning; their values are unknown in all the rest.  ``ended``: why the file
+    could not be read any further, empty if it could.
     """
 
     name: str
@@ -47,6 +49,7 @@ class LogResult:
     choice: PropertySelection
     behaviour: Behaviour
     invalid: Invalid
+    ended: str = ""
 
     @property
     def unexpected(self) -> tuple[LogVerdict, ...]:
@@ -60,7 +63,7 @@ class LogResult:
     @property
     def conforms(self) -> bool:
         """Whether nothing at all is wrong with the log, and all could be decided."""
-        return not (self.deviates or self.invalid or self.behaviour.undecided)
+        return not (self.deviates or self.invalid or self.ended or self.behaviour.undecided)
 
     @property
     def seconds(self) -> float:
@@ -83,8 +86,8 @@ def examine(
 ) -> LogResult:
     """Check one log, against the charts as specified unless told otherwise.
 
-    ``watched``: whether its behaviour says what was put to the test.  Raises ``LogError`` for a file that
-    is no log of the board, or not up to its end.
+    ``watched``: whether its behaviour says what was put to the test.  A file that cannot be read up to its
+    end is judged as far as it can.  Raises ``LogError`` for one that is no log of the board at all.
     """
     against = against or as_drawn()
     log = open_log(path, how, system, against.boards)
@@ -92,8 +95,11 @@ def examine(
         first = next(blocks)
         run = _Run(log, against, watched)
         run.block(first)
-        for block in blocks:
-            run.block(block)
+        try:
+            for block in blocks:
+                run.block(block)
+        except LogError as error:
+            run.ended = str(error)
     return run.result()
 
 
@@ -112,6 +118,7 @@ class _Run:
         parts = against.cones(layout.board, seen, logged)
         self._follow = BoardFollower(parts, _tolerance(layout), seen, from_power_up, watched=watched)
         self._rows = self._ticks = self._missing = 0
+        self.ended = ""
         self._gaps: list[Gap] = []
 
     def block(self, block: LogBlock) -> None:
@@ -139,6 +146,7 @@ class _Run:
             self._choice,
             self._follow.end(),
             self._log.invalid,
+            self.ended,
         )
 
     def _on_record(self, verdict: LogVerdict) -> LogVerdict:

@@ -224,9 +224,21 @@ class _Reader:
 
 
 def _read(reader: _Reader, width: int, before: int) -> Iterator[Texts]:
+    """The rows, and those before one that cannot be read before it is said why."""
     rows = _rows(reader, width, before)
-    while some := list(islice(rows, BLOCK)):
-        yield Texts([line for line, _ in some], list(zip(*(cells for _, cells in some), strict=True)))
+    while True:
+        some: list[tuple[int, list[str]]] = []
+        wrong: LogError | None = None
+        try:
+            some.extend(islice(rows, BLOCK))
+        except LogError as error:
+            wrong = error
+        if some:
+            yield Texts([line for line, _ in some], list(zip(*(cells for _, cells in some), strict=True)))
+        if wrong is not None:
+            raise wrong
+        if not some:
+            return
 
 
 def _rows(reader: _Reader, width: int, before: int) -> Iterator[tuple[int, list[str]]]:

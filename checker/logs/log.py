@@ -10,7 +10,7 @@ from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.io.printable import one_line
 from rovercheck.checker.logs.cells import CellConverter, converter
 from rovercheck.checker.logs.errors import LogError, at, shortened
-from rovercheck.checker.logs.files import FileRows, opened
+from rovercheck.checker.logs.files import FileRows, Texts, opened
 from rovercheck.checker.logs.invalid import Invalid, InvalidCell
 from rovercheck.checker.logs.mapping import Column, ColumnMap
 from rovercheck.spec_model.abstraction import Board, BoardSignal
@@ -69,6 +69,7 @@ class Log:
     start: str = ""
     converters: list[tuple[int, str, CellConverter]] = field(default_factory=list)
     invalid: Invalid = field(default_factory=Invalid)
+    _wrong: LogError | None = field(default=None, init=False, repr=False)
 
     def blocks(self) -> Generator[LogBlock, None, None]:
         """The steps, block by block.  Raises ``LogError`` with the line of what is wrong."""
@@ -109,7 +110,7 @@ class Log:
         lines: list[int] = []
         values: dict[str, Cells] = {signal: [] for _, signal, _ in self.converters}
         invalid: list[InvalidCell] = []
-        for texts in islice(self.rows.blocks, TOGETHER):
+        for texts in self._texts():
             lines += texts.lines
             for i, signal, convert in self.converters:
                 cells = texts.columns[i]
@@ -118,6 +119,20 @@ class Log:
                     shown = shortened(cells[row].strip())
                     invalid.append(InvalidCell(self.rows.header[i], signal, shown, because, texts.lines[row]))
         return _Values(lines, values, invalid)
+
+    def _texts(self) -> Iterator[Texts]:
+        """The texts of the next rows.  What is wrong behind them is raised when nothing is left before it."""
+        if self._wrong is not None:
+            raise self._wrong
+        count = 0
+        try:
+            for texts in islice(self.rows.blocks, TOGETHER):
+                count += 1
+                yield texts
+        except LogError as error:
+            if not count:
+                raise
+            self._wrong = error
 
 
 @dataclass(frozen=True)

@@ -127,7 +127,7 @@ def test_a_folder_is_summed_up_though_one_log_is_broken(
 ) -> None:
     rows = copied(long_log("board1")[:200])
     written(tmp_path, rows, name="good.csv")
-    (tmp_path / "cut.csv").write_text("now_ms,temp_status\n20,0\n40\n", encoding="utf-8")
+    (tmp_path / "cut.csv").write_text("now_ms,temp_status\n20\n40,0\n", encoding="utf-8")
     assert check_log(str(tmp_path)) is Exit.USAGE
     rows[90]["temp_status"] = (int(rows[90]["temp_status"]) + 1) % 3
     written(tmp_path, rows, name="odd.csv")

@@ -58,7 +58,11 @@ def with_a_wrong_cell(folder: Path) -> None:
 
 
 def unusable(folder: Path) -> None:
-    (folder / "cut.csv").write_text("now_ms,temp_status\n20,0\n40\n", encoding="utf-8")
+    (folder / "cut.csv").write_text("now_ms,temp_status\n20\n40,0\n", encoding="utf-8")
+
+
+def torn(folder: Path) -> None:
+    (folder / "torn.csv").write_text("now_ms,temp_status\n20,0\n40\n", encoding="utf-8")
 
 
 def undecided(folder: Path) -> None:
@@ -88,6 +92,7 @@ def a_fault_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ([good], 0),
         ([good, undecided], 2),
+        ([good, torn], 2),
         ([good, undecided, unusable], 4),
         ([good, undecided, unusable, deviating], 1),
         ([good, unusable, with_a_wrong_cell], 1),
@@ -104,6 +109,8 @@ def test_the_gravest_log_decides_and_every_log_is_told(
     printed = " ".join(capsys.readouterr().out.split())
     for file in tmp_path.iterdir():
         assert file.name in printed
+    if torn in logs:
+        assert "torn.csv: judged up to what cannot be read: line 3: the row has 1 cells" in printed
     if failing in logs:
         assert (
             "fails.csv: not judged: Internal error: KeyError: 'prevDEG_B1'. "

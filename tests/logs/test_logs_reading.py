@@ -237,3 +237,26 @@ def test_a_map_that_does_not_fit_the_log(tmp_path: Path, toml: str, says: str) -
 
 def test_an_unknown_system(tmp_path: Path) -> None:
     assert "Did you mean 'board1'" in refused(written(tmp_path, short()), system="bord1")
+
+
+@pytest.mark.parametrize("rows", [40, 3000])
+@pytest.mark.parametrize("packed", [False, True])
+def test_what_comes_before_the_end_of_a_torn_file_is_judged(tmp_path: Path, rows: int, packed: bool) -> None:
+    """One line torn when power was lost made all of a log worth nothing."""
+    whole = text(copied(long_log("board1"))).splitlines(keepends=True)
+    lines = (whole * (rows // len(whole) + 1))[: rows + 1] if rows < len(whole) else whole
+    torn = "".join(lines)[: -len(lines[-1]) // 2]
+    file = tmp_path / ("log.csv.gz" if packed else "log.csv")
+    file.write_bytes(gzip.compress(torn.encode()) if packed else torn.encode())
+    found = examine(file, ColumnMap())
+    assert found.rows == len(lines) - 2 and not found.conforms
+    assert found.ended.startswith(f"line {len(lines)}: the row has")
+    assert not found.behaviour.deviations
+
+
+def test_a_file_of_which_nothing_can_be_read_is_refused(tmp_path: Path) -> None:
+    lines = text(copied(long_log("board1"))).splitlines(keepends=True)
+    file = tmp_path / "log.csv"
+    file.write_text(lines[0] + lines[1][: len(lines[1]) // 2], encoding="utf-8")
+    with pytest.raises(LogError, match="line 2: the row has"):
+        examine(file, ColumnMap())

@@ -124,8 +124,10 @@ class LogRow(TypedDict):
     """Why no log tells of a property."""
     deviations: list[DeviationRow]
     unknown: list[UndecidedPart]
+    ended: str
+    """Why the file could not be read any further; empty if it was read to its end."""
     conforms: bool
-    """Nothing deviates, no cell is without meaning, and all was decided."""
+    """Nothing deviates, no cell is without meaning, and all was read and decided."""
 
 
 class UnusableRow(TypedDict):
@@ -263,6 +265,7 @@ def _log(found: LogResult, charts: str, campaign: LogCampaign) -> LogRow:
         "unknown": [
             {"part": u.part, "from_tick": u.tick, "because": u.because} for u in found.behaviour.undecided
         ],
+        "ended": found.ended,
         "conforms": found.conforms,
     }
 

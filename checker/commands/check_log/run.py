@@ -157,4 +157,4 @@ def _code_of(found: Outcome, campaign: LogCampaign) -> Exit:
             return Exit.USAGE
     if found.unexpected or campaign.unknown(found) or found.invalid:
         return Exit.FAILED
-    return Exit.INCONCLUSIVE if found.behaviour.undecided else Exit.AS_EXPECTED
+    return Exit.INCONCLUSIVE if found.behaviour.undecided or found.ended else Exit.AS_EXPECTED

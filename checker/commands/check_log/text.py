@@ -82,6 +82,8 @@ def _head(found: LogResult, charts: str, verbose: bool) -> Iterator[str]:
         where = ", ".join(f"{g.steps} before line {g.line} (tick {g.tick})" for g in found.gaps)
         rest = ", ..." if found.missing > sum(g.steps for g in found.gaps) else ""
         yield _lines("missing", f"{counted(found.missing, 'step', 'steps')}: {where}{rest}")
+    if found.ended:
+        yield _lines("ended", f"{one_line(found.ended)} What comes before it is judged, the rest is not.")
 
 
 def _cells(invalid: Invalid) -> Iterator[str]:
@@ -232,6 +234,10 @@ def summary(found: Mapping[str, Outcome], charts: str = "", campaign: LogCampaig
     for name, one in found.items():
         if isinstance(one, LogError):
             lines.append(_lines("", f"{name}: not read: {one}", indent=0, hang=0))
+        elif isinstance(one, LogResult) and one.ended:
+            lines.append(
+                _lines("", f"{name}: judged up to what cannot be read: {one.ended}", indent=0, hang=0)
+            )
         elif isinstance(one, LogFault):
             lines.append(_lines("", f"{name}: not judged: {one.message}", indent=0, hang=0))
     head = [_lines("charts", charts, indent=0, hang=8)] if charts else []
