@@ -138,7 +138,7 @@ def test_a_folder_is_summed_up_though_one_log_is_broken(
     lines = {line.split()[0]: line.split() for line in printed.splitlines() if line}
     assert lines["good.csv"][1:4] == ["board1", "200", "0"] and lines["odd.csv"][5] == "1"
     assert lines["two.csv"][1] == "board2"
-    assert "cut.csv: not read: line 3: the row has 1 cells" in printed
+    assert "cut.csv: not read: line 2: the row has 1 cells" in printed
     assert "4 logs: 1 with deviations or unexpected violations, 1 not read." in printed
     assert max(map(len, printed.splitlines())) <= 80
 
