@@ -1,5 +1,6 @@
 """A change of a chart as a hypothesis: what it is, where, from what to what, and how near to the charts."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -57,6 +58,28 @@ TIERS: dict[str, float] = {
 
 Nearness = tuple[float, ...]
 
+_SITE = re.compile(r"(arrow|default)(?:/(.+?))?\.(\d+)|state/(.+)/(entry|during|exit)|block")
+
+
+def place_text(at: str) -> str:
+    """Where a change is, for people: ``arrow/A.2 guard`` is ``in the guard of transition 2 from A``.
+
+    Sites that are written otherwise stay as they are.
+    """
+    if at.startswith("signal/"):
+        return f"of {at.removeprefix('signal/')}"
+    site, _, role = at.partition(" ")
+    found = _SITE.fullmatch(site)
+    if at == "everywhere" or found is None:
+        return at
+    kind, of, number, state, moment = found.groups()
+    what = "guard" if role == "guard" else f"value of {role}" if role not in ("", "if") else "actions"
+    if kind == "default":
+        return f"in the {what} of default transition {number}{f' of {of}' if of else ''}"
+    if kind == "arrow":
+        return f"in the {what} of transition {number} from {of}"
+    return f"in the {what} on {moment} of {state}" if state else f"in the {what}"
+
 
 @dataclass(frozen=True, eq=False)
 class ChartChange:
@@ -88,4 +111,4 @@ class ChartChange:
         return (TIERS.get(self.kind, 3), self.distance)
 
 
-__all__ = ["KINDS", "TIERS", "ChangeKind", "ChartChange", "Nearness"]
+__all__ = ["KINDS", "TIERS", "ChangeKind", "ChartChange", "Nearness", "place_text"]

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 
-from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
 from rovercheck.checker.mutate.delays import Delay, delays
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.rewrites import (
@@ -89,7 +89,7 @@ def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeK
     word = "signal" if kind == "exchanged" and one.new not in part.read else kind
     text = TOLD[word].format(old=one.old, new=one.new)
     if one.site not in ("everywhere", "memory", "buffers"):
-        text += f" ({one.site})"
+        text += f", {place_text(one.site)}"
     make = partial(_with_part, system, part, one.part)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)
 

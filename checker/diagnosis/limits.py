@@ -12,7 +12,7 @@ from functools import partial
 from math import ceil, floor, log10
 
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.mutate.formulas import BESIDE
 from rovercheck.checker.mutate.places import FormulaPlace
@@ -82,7 +82,7 @@ class NumberSlot:
         drawn = self.drawn * self.sort.resolution
         new, old = self._named(op, value), self._named(self.op, drawn)
         kind: ChangeKind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
-        where = "" if self.at == "everywhere" else f" ({self.at})"
+        where = "" if self.at == "everywhere" else f", {place_text(self.at)}"
         text = f"a limit of {new}, instead of {old}{where}" if op else f"{new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))

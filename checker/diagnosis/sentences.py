@@ -19,7 +19,7 @@ def like(change: ChartChange) -> str:
     """One change, as what something behaves like."""
     if change.kind == "interpretation":
         return f"as under the interpretation {change.text}"
-    word = "as with" if change.kind in WITH else "as if"
+    word = "as with" if change.kind in WITH or change.text.startswith("a limit") else "as if"
     return f"{word} {change.text}"
 
 

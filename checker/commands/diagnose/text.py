@@ -5,7 +5,7 @@ from textwrap import fill
 
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.conformance.mismatch import LogMismatch
-from rovercheck.checker.diagnosis.change import KINDS
+from rovercheck.checker.diagnosis.change import KINDS, place_text
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, DiagnosedPart
 from rovercheck.checker.diagnosis.sentences import behaves, explained, inputs_told, like
 from rovercheck.checker.io.printable import one_line
@@ -96,7 +96,7 @@ def _part(number: int, part: DiagnosedPart) -> Iterator[str]:
 def _change(kind: str, at: str, old: str, new: str) -> str:
     if kind in ("interpretation", "repair"):
         return f"{KINDS[kind]}: {old} → {new}"
-    return f"{KINDS[kind]} {'' if at == 'everywhere' else 'at '}{at}: {old} → {new}"
+    return f"{KINDS[kind]} {place_text(at)}: {old} → {new}"
 
 
 def _evidence(part: DiagnosedPart) -> Iterator[str]:
