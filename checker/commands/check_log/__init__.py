@@ -6,8 +6,14 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.known import known_options
-from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, modelling, quietly
+from rovercheck.checker.commands.shared.options import (
+    VariantOptions,
+    changing,
+    gathered,
+    knowing,
+    modelling,
+    quietly,
+)
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,7 @@ class LogOptions:
 )
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
-@known_options
+@knowing
 @changing
 @modelling
 @quietly

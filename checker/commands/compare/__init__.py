@@ -6,8 +6,14 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.known import known_options
-from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, modelling, quietly
+from rovercheck.checker.commands.shared.options import (
+    VariantOptions,
+    changing,
+    gathered,
+    knowing,
+    modelling,
+    quietly,
+)
 
 
 @dataclass(frozen=True)
@@ -61,7 +67,7 @@ class ComparisonOptions:
     metavar="DIR",
     help="Write a test for each of these mismatches there, not here.",
 )
-@known_options
+@knowing
 @changing
 @modelling
 @quietly

@@ -36,7 +36,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "diagnose": (
         "rovercheck diagnose examples/logs/faults.csv",
-        "rovercheck diagnose examples/logs --map examples/logs/map.toml --write variant.toml",
+        "rovercheck diagnose examples/logs/faults.csv --write variant.toml",
     ),
     "diff": (
         "rovercheck diff HEAD",

@@ -4,9 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
-from typing import Any, TypeVar
 
-import click
 from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.shared.codes import UsageError
@@ -22,8 +20,6 @@ from rovercheck.checker.conformance.known import (
 from rovercheck.checker.conformance.known_file import known_in, known_text
 from rovercheck.spec_model.abstraction import Board
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
 
 class KnownRow(TypedDict):
     """A known deviation of the board, and what came of it."""
@@ -34,23 +30,6 @@ class KnownRow(TypedDict):
     owner: str
     until: str
     """The last day on which it is expected, or never."""
-
-
-def known_options(command: Command) -> Command:
-    """The two options of a verb."""
-    writes = click.option(
-        "--write-known",
-        type=click.Path(dir_okay=False, path_type=Path),
-        metavar="FILE",
-        help="Write the deviations found there, for --known.",
-    )
-    reads = click.option(
-        "--known",
-        type=click.Path(dir_okay=False, path_type=Path),
-        metavar="FILE",
-        help="Deviations that are expected, and checked on.",
-    )
-    return reads(writes(command))
 
 
 @dataclass(frozen=True)
@@ -164,4 +143,4 @@ def mark(word: FoundWord, id: str) -> str:
     return told[word]
 
 
-__all__ = ["KnownBook", "KnownRow", "known_book", "known_lines", "known_options", "known_rows", "mark"]
+__all__ = ["KnownBook", "KnownRow", "known_book", "known_lines", "known_rows", "mark"]

@@ -238,6 +238,23 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
     )
 
 
+def knowing(command: Verb) -> Verb:
+    """The options of every verb that compares what was recorded with the charts: known deviations."""
+    writes = click.option(
+        "--write-known",
+        type=click.Path(dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Write the deviations found there, for --known.",
+    )
+    reads = click.option(
+        "--known",
+        type=click.Path(dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Deviations that are expected, and checked on.",
+    )
+    return reads(writes(command))
+
+
 REPAIR = click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs.")
 
 
