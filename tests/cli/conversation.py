@@ -60,7 +60,7 @@ def main() -> None:
         patch.object(reporting, "catalogue", _few),
         patch.object(reporting, "proofs", lambda record: ()),
         patch.object(reporting, "repair_pages", lambda proved: {}),
-        patch.object(generating, "aims", lambda names, kinds: toy),
+        patch.object(generating, "aims", lambda names, kinds, boards: toy),
         patch.object(generating, "systems", lambda: {cover_toys.TOY.name: cover_toys.SYSTEM}),
     ):
         for command in COMMANDS:

@@ -108,7 +108,7 @@ def test_ctrl_c_writes_what_was_found(
 def toy_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     """The toy board in place of the rover's; nothing is kept of it yet."""
     goals = watched(TOY.system).goals
-    monkeypatch.setattr(generating, "aims", lambda names, kinds: [Aim(TOY, goals)])
+    monkeypatch.setattr(generating, "aims", lambda names, kinds, boards: [Aim(TOY, goals)])
     monkeypatch.setattr(generating, "systems", lambda: {TOY.name: SYSTEM})
     monkeypatch.setattr(generating, "kept_text", lambda name: written(TOY, KeptTests(())))
 

@@ -32,7 +32,7 @@ SAID = {
     "certify": "file checked",
     "graph": "so far",
     "reports": "so far",
-    "compare": "mismatches",
+    "compare": "deviations",
     "check-log": "2 of 2: good.csv",
     "simulate": " of 16 s",
     "generate-tests": "goals decided",
