@@ -21,8 +21,8 @@ from rovercheck.checker.compare.beside import played
 from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.conformance.cones import LogCone, parts_of
-from rovercheck.checker.conformance.program import ProgramOutput, compiled
-from rovercheck.checker.conformance.recording import LogBlock
+from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
+from rovercheck.checker.conformance.recording import Cells, LogBlock
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.decide import RunSearch
 from rovercheck.checker.diagnosis.evidence import Recording
@@ -78,31 +78,32 @@ def drives(name: str) -> tuple[Inputs, ...]:
     return tuple(found)
 
 
-def outputs(board: Board, system: System, inputs: Inputs) -> list[tuple[object, ...]]:
+def outputs(board: Board, system: System, inputs: Inputs) -> list[Known]:
     """The raw outputs of a changed board, step by step; ``None`` where nothing is required."""
     lowered = lower(system)
     step = compiled(lowered, [ProgramOutput(o.var, o.unless) for o in board.outputs])
-    reader, state, found = board.reader(), tuple(v.init for v in lowered.variables), []
+    state: Known = tuple(v.init for v in lowered.variables)
+    reader, found = board.reader(), list[Known]()
     for one in inputs:
         seen = reader.step(one)
-        state, given = step(state, tuple(seen[v.name] for v in lowered.inputs))  # type: ignore[assignment]
+        state, given = step(state, tuple(seen[v.name] for v in lowered.inputs))
         found.append(given)
-    return found  # type: ignore[return-value]
+    return found
 
 
 @cache
-def required(name: str, number: int) -> tuple[tuple[object, ...], ...]:
+def required(name: str, number: int) -> tuple[Known, ...]:
     """The outputs of the board as drawn."""
     board = boards()[name]
     return tuple(outputs(board, board.system, drives(name)[number]))
 
 
-def recorded(board: Board, name: str, inputs: Inputs, given: Sequence[Sequence[object]]) -> Recording:
+def recorded(board: Board, name: str, inputs: Inputs, given: Sequence[Known]) -> Recording:
     """Inputs and outputs as a recorded run."""
-    values = {s.name: [s.raw(row[s.name]) for row in inputs] for s in board.inputs}
+    values: dict[str, Cells] = {s.name: [s.raw(row[s.name]) for row in inputs] for s in board.inputs}
     columns = {o.name: [row[i] for row in given] for i, o in enumerate(board.outputs)}
     steps = range(1, len(inputs) + 1)
-    block = LogBlock(list(steps), list(steps), [0] * len(inputs), {**values, **columns})  # type: ignore[dict-item]
+    block = LogBlock(list(steps), list(steps), [0] * len(inputs), {**values, **columns})
     return Recording(name, frozenset(block.values), True, lambda: [block])
 
 

@@ -14,6 +14,7 @@ from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Const
 from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
@@ -105,7 +106,12 @@ class SteppedCharts:
         return bool(evaluate(self._assumed, {**self._interpreter.valuation(), **raw}))
 
     def step(self, inputs: Values) -> ComparedStep:
-        """One execution.  Raises ``ModelError`` for inputs that the charts give no meaning to."""
+        """One execution.
+
+        Raises ``ModelError`` for inputs without meaning, and for those that the system takes not to come.
+        """
+        if not self.admits(inputs):
+            raise ModelError(f"{self._board.name} assumes that these inputs do not come in this step.")
         fired = self._interpreter.step(self._reader.step(inputs))
         return ComparedStep(inputs, self._board.expected(self._interpreter.valuation()), fired)
 

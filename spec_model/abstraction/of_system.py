@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 
 from rovercheck.spec_model.abstraction.board import Board
 from rovercheck.spec_model.abstraction.interface import BoardInterface, InputRow, clock, produced, sample
-from rovercheck.spec_model.abstraction.signals import Output, discrete, measured
+from rovercheck.spec_model.abstraction.signals import Output, discrete, measured, plain
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
@@ -63,12 +63,6 @@ def _input(var: Var, name: str) -> InputRow:
 
 def _names(variables: Iterable[Var]) -> Mapping[str, str]:
     """Short names, as far as they are no others."""
-    names = dict.fromkeys(v.name for v in variables)
-    short = {name: plain_name(name) for name in names}
+    short = {v.name: plain(v) for v in variables}
     taken = Counter(short.values())
-    return {name: short[name] if taken[short[name]] == 1 else name for name in names}
-
-
-def plain_name(name: str) -> str:
-    """A name without the prefix before its last dot."""
-    return name.rpartition(".")[2]
+    return {name: short[name] if taken[short[name]] == 1 else name for name in short}

@@ -12,6 +12,7 @@ from rovercheck.checker.adapters.implementation import Implementation
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.compare import cross_check, effort
+from rovercheck.checker.compare.beside import rerun
 from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.model.load import load
 from rovercheck.spec_model.abstraction.of_system import board_of
@@ -231,6 +232,9 @@ def test_what_a_model_takes_not_to_come_is_not_given() -> None:
     calm = Assumption("CALM", "It is warm only with a door closed.", ~((warm > 5) & door[0] & door[1]))
     seen = Noting()
     cross_check(board_of(in_order("fan", fan, assumptions=(calm,)), "here"), seen, effort("ci", 5))
+    hot = {"now_ms": 20, "warm": 9, "left.door": True, "right.door": True, "far": 0}
+    with pytest.raises(ModelError, match="assumes"):  # nor is a mismatch made small in a run that has them
+        rerun(board_of(in_order("fan", fan, assumptions=(calm,)), "here"), [hot])
     assert seen.given and not any(g["warm"] > 5 and g["left.door"] and g["right.door"] for g in seen.given)
 
 

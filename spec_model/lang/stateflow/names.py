@@ -1,8 +1,9 @@
 """The names that a label may use, and what they stand for: data, formulas, members, functions, charts."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from rovercheck.spec_model.lang.action import Action, call_of, each_action, expressions, writes
 from rovercheck.spec_model.lang.array import Array
@@ -25,6 +26,8 @@ _AFTER = re.compile(r"[ \t]*(?:$|[\])},;&|?:{=!~\n])")
 _TIMED = re.compile(r"(after|duration|held|rising)\(")
 """Names that read like a word about time: those of another state are not meant."""
 _MASK, _REST = "\ue000", "\ue001"
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -87,10 +90,10 @@ class LabelNames:
             raise ModelError(f"two data are named {name}: give each a name of its own.")
         self.unclear.add(name)
 
-    def _once(self, table: dict[str, object] | Mapping[str, object], name: str, thing: object) -> None:
+    def _once(self, table: dict[str, T], name: str, thing: T) -> None:
         if table.get(name, thing) is not thing:
             raise ModelError(f"two data are named {name}: give each a name of its own.")
-        table[name] = thing  # type: ignore[index]
+        table[name] = thing
 
     def _add_sort(self, value: Expr) -> None:
         if isinstance(value.sort, Enum):

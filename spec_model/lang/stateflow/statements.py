@@ -198,7 +198,9 @@ class _Label:
             case "assignment":
                 return (self._assign(subtrees(node)[0], subtrees(node)[1]),)
             case "change":
-                return (self._change(*node.children),)  # type: ignore[arg-type]
+                target, value = subtrees(node)
+                [sign] = (part for part in node.children if isinstance(part, Token))
+                return (self._change(target, sign, value),)
             case "step":
                 by = const(1 if str(node.children[1]) == "++" else -1)
                 return (self._changed(subtrees(node)[0], lambda old: linear(Op.ADD, old, _like(by, old))),)
