@@ -84,6 +84,12 @@ class StepMismatch:
         return (self.board.name, first, transitions[-1] if transitions else None)
 
 
+def takes_for_granted(board: Board) -> bool:
+    """Whether the system of a board assumes anything of its inputs."""
+    assumed = board.system.assumed
+    return not (isinstance(assumed, Const) and assumed.value)
+
+
 class SteppedCharts:
     """The charts of a board, run on concrete inputs from power-up."""
 
@@ -91,8 +97,7 @@ class SteppedCharts:
         self._board = board
         self._reader = board.reader()
         self._interpreter = Interpreter(board.system, measured=True)
-        assumed = board.system.assumed
-        self._assumed = None if isinstance(assumed, Const) and assumed.value else assumed
+        self._assumed = board.system.assumed if takes_for_granted(board) else None
 
     def valuation(self) -> dict[str, int]:
         """Everything that the charts hold."""

@@ -15,6 +15,7 @@ from rovercheck.checker.compare.beside import (
     compared,
     differing,
     rerun,
+    takes_for_granted,
 )
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.result import ALLOWED
@@ -156,6 +157,8 @@ class _Work:
     def _followed(self, run: InputColumns, deviation: Deviation) -> InputColumns | None:
         """The run up to the same mismatch of the same part."""
         inputs = run.inputs(self.env.board)
+        if takes_for_granted(self.env.board):
+            rerun(self.env.board, inputs)
         outputs = answers(inputs, self._implementation)
         found = self._follower.first(inputs, outputs, scope_of(deviation.first))
         if found is None:

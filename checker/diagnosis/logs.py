@@ -1,7 +1,7 @@
 """Logs as recorded runs: opened anew each time that their rows are asked for."""
 
 from collections.abc import Iterator
-from contextlib import closing, suppress
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,10 +14,14 @@ from rovercheck.checker.logs.mapping import ColumnMap
 
 @dataclass(frozen=True)
 class LoggedRun:
-    """A log as a recorded run of a board."""
+    """A log as a recorded run of a board.
+
+    ``ended`` holds why the file could not be read to its end, if so, once its blocks were read.
+    """
 
     board: str
     run: Recording
+    ended: list[str]
 
 
 def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
@@ -26,12 +30,15 @@ def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
     Raises ``LogError`` for a file that is no log at all; so does reading its blocks.
     """
 
+    ended: list[str] = []
+
     def blocks() -> Iterator[LogBlock]:
         with closing(open_log(path, how, system).blocks()) as found:
-            first = next(found)
-            yield first
-            with suppress(LogError):  # what comes before what cannot be read tells enough
+            yield next(found)
+            try:
                 yield from found
+            except LogError as error:
+                ended[:] = [str(error)]
 
     log = open_log(path, how, system)
     with closing(log.blocks()) as found:
@@ -39,7 +46,7 @@ def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
     layout = log.layout
     tolerance = {c.signal: c.tolerance for c in layout.stated.values() if c.tolerance is not None}
     run = Recording(path.name, layout.signals, log.start == "power-up", blocks, tolerance)
-    return LoggedRun(layout.board, run)
+    return LoggedRun(layout.board, run, ended)
 
 
 __all__ = ["LoggedRun", "logged_run"]

@@ -259,3 +259,19 @@ def test_what_no_implementation_can_be_beside_is_refused() -> None:
     clocked = Chart("C", [State("A", transitions=[to("A", when=flag("now_ms"))])], default="A")
     with pytest.raises(ModelError, match="the time of the step"):
         board_of(in_order("c", clocked))
+
+
+def test_a_mismatch_is_made_small_within_what_a_model_assumes() -> None:
+    calm = Assumption("CALM", "It is warm only with a door closed.", ~((warm > 5) & door[0] & door[1]))
+    board = board_of(in_order("fan", fan, assumptions=(calm,)), "here")
+    result = cross_check(board, Still(), effort("ci", 5))
+    assert result.mismatches and result.small
+    for one in result.mismatches:
+        rerun(board, [step.inputs for step in one.steps])  # refuses what is assumed not to come
+
+
+class Still(Noting):
+    """A fan that never turns."""
+
+    def step(self, given: object) -> dict[str, float]:
+        return {"Fan": 1}

@@ -13,6 +13,7 @@ from rovercheck.checker.commands.shared.options import (
     knowing,
     modelling,
     quietly,
+    reading_logs,
 )
 
 
@@ -29,17 +30,7 @@ class LogOptions:
 
 
 @click.command(short_help="Check logs recorded on a board.")
-@click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR")
-@click.option(
-    "--map",
-    "map_file",
-    type=click.Path(path_type=Path),
-    metavar="MAP.toml",
-    help="What the columns are (docs/logs.md).",
-)
-@click.option(
-    "--system", metavar="NAME", help="The board: board1 or board2; by default found from the columns."
-)
+@reading_logs
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
 @knowing

@@ -10,15 +10,15 @@ from rovercheck.checker.commands.check_log.text import LogFault, Outcome, page, 
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.commands.shared.known import KnownBook, known_book
+from rovercheck.checker.commands.shared.logs import column_map, logs_in, no_logs
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.compare.variants import boards_of_model, varied
 from rovercheck.checker.io.printable import json_text
-from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine, read_map
+from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.lang.system import TICK_MS
 
-SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
 GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
 """Of a folder the first of these that applies to some log."""
 
@@ -60,7 +60,7 @@ def check_log(place: Path, options: LogOptions, variant: Variant) -> Exit:
     if options.known is not None or options.write_known is not None:
         every = against.boards if against else varied(variant.choices, variant.repair)
         book = known_book(options.known, options.write_known, every, variant.name)
-    asked = LogRequest(_map(options.map_file), options, variant.name, against, book)
+    asked = LogRequest(column_map(options.map_file), options, variant.name, against, book)
     return _folder(place, asked) if place.is_dir() else _log(place, asked)
 
 
@@ -108,23 +108,11 @@ def _against(variant: Variant, name: str | None) -> LogReference:
     return LogReference(found, properties, systems, lambda id: variant.expected(id).verdict)
 
 
-def _map(file: Path | None) -> ColumnMap:
-    if file is None:
-        return ColumnMap()
-    try:
-        return read_map(file)
-    except LogError as error:
-        raise UsageError(str(error)) from error
-
-
 def _folder(folder: Path, asked: LogRequest) -> Exit:
     """Every log of a folder; one that cannot be read or judged leaves the others' results."""
-    try:
-        logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
-    except OSError as error:
-        raise UsageError(f"Cannot read the folder {folder}: {error.strerror}. Write another.") from error
+    logs = logs_in(folder)
     if not logs:
-        err.print(f"{folder} holds no log ({', '.join(SUFFIXES)}).", markup=False)
+        err.print(no_logs(folder), markup=False)
         return Exit.NOTHING
     found: dict[str, Outcome] = {}
     with ProgressLine() as line:

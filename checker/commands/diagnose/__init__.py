@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import gathered, quietly
+from rovercheck.checker.commands.shared.options import gathered, quietly, reading_logs
 
 
 @dataclass(frozen=True)
@@ -22,17 +22,7 @@ class DiagnoseOptions:
 
 
 @click.command(short_help="Find the causes of what logs do otherwise than the charts.")
-@click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR")
-@click.option(
-    "--map",
-    "map_file",
-    type=click.Path(path_type=Path),
-    metavar="MAP.toml",
-    help="What the columns are (docs/logs.md).",
-)
-@click.option(
-    "--system", metavar="NAME", help="The board: board1 or board2; by default found from the columns."
-)
+@reading_logs
 @click.option(
     "--variant", type=click.Path(path_type=Path), metavar="FILE", help="Charts with the changes of a variant."
 )

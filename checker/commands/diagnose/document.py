@@ -122,10 +122,12 @@ class DiagnoseDocument(TypedDict):
     boards: list[BoardRow]
     not_read: dict[str, str]
     """Logs that could not be read, with the reason."""
+    ended: dict[str, str]
+    """Logs that could not be read to their ends, and count as far as they were, with the reason."""
 
 
 def diagnose_document(
-    found: Sequence[BoardDiagnosis], unread: Mapping[str, str], code: Exit
+    found: Sequence[BoardDiagnosis], unread: Mapping[str, str], ended: Mapping[str, str], code: Exit
 ) -> DiagnoseDocument:
     """All that was found."""
     return {
@@ -133,6 +135,7 @@ def diagnose_document(
         "exit": code,
         "boards": [_board(one) for one in found],
         "not_read": dict(unread),
+        "ended": dict(ended),
     }
 
 

@@ -7,27 +7,29 @@ from pathlib import Path
 from rovercheck.checker.commands.diagnose import DiagnoseOptions
 from rovercheck.checker.commands.diagnose.text import page
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.logs import column_map, logs_in, no_logs
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.diagnosis.evidence import Recording
-from rovercheck.checker.diagnosis.logs import logged_run
+from rovercheck.checker.diagnosis.logs import LoggedRun, logged_run
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
 from rovercheck.checker.diagnosis.sentences import like
 from rovercheck.checker.diagnosis.variant import VariantError, applied, read_variant, written
 from rovercheck.checker.io.files import replaced
 from rovercheck.checker.io.printable import json_text
-from rovercheck.checker.logs import ColumnMap, LogError, read_map
+from rovercheck.checker.logs import ColumnMap, LogError
 from rovercheck.spec_model.abstraction import Board, boards
-
-SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
 
 
 @dataclass
 class FoundCauses:
-    """What was found of each board, and the logs that could not be read, each with the reason."""
+    """What was found of each board, and the logs that could not be read, each with the reason.
+
+    Those that are ``ended`` could not be read any further, and count as far as they were.
+    """
 
     boards: list[BoardDiagnosis] = field(default_factory=list)
     unread: dict[str, str] = field(default_factory=dict)
+    ended: dict[str, str] = field(default_factory=dict)
 
     @property
     def code(self) -> Exit:
@@ -36,7 +38,8 @@ class FoundCauses:
             return Exit.FAILED
         if self.unread:
             return Exit.USAGE
-        return Exit.INCONCLUSIVE if any(b.undecided for b in self.boards) else Exit.AS_EXPECTED
+        open_ = self.ended or any(b.undecided for b in self.boards)
+        return Exit.INCONCLUSIVE if open_ else Exit.AS_EXPECTED
 
 
 def diagnose(place: Path, options: DiagnoseOptions) -> Exit:
@@ -44,16 +47,18 @@ def diagnose(place: Path, options: DiagnoseOptions) -> Exit:
 
     Raises ``UsageError`` for a map or a variant without meaning, and for a single log that cannot be read.
     """
-    how, charts = _map(options.map_file), _boards(options.variant)
-    logs = _logs(place)
+    how, charts = column_map(options.map_file), _boards(options.variant)
+    logs = logs_in(place) if place.is_dir() else [place]
     if not logs:
-        err.print(f"{place} holds no log ({', '.join(SUFFIXES)}).", markup=False)
+        err.print(no_logs(place), markup=False)
         return Exit.NOTHING
     found = FoundCauses()
     with ProgressLine() as line:
         runs = _read(logs, how, options.system or "", found)
         for name, of_board in runs.items():
-            found.boards.append(diagnose_board(charts[name], of_board, options.seconds, line.show))
+            recordings = [one.run for one in of_board]
+            found.boards.append(diagnose_board(charts[name], recordings, options.seconds, line.show))
+            found.ended |= {one.run.name: one.ended[0] for one in of_board if one.ended}
     if not place.is_dir() and found.unread:
         raise UsageError(f"{place}: {found.unread[place.name]}")
     if options.write is not None:
@@ -61,28 +66,12 @@ def diagnose(place: Path, options: DiagnoseOptions) -> Exit:
     if options.as_json:
         from rovercheck.checker.commands.diagnose.document import diagnose_document
 
-        print(json_text(diagnose_document(found.boards, found.unread, found.code)))
+        print(json_text(diagnose_document(found.boards, found.unread, found.ended, found.code)))
     else:
-        out.print(page(found.boards, found.unread), markup=False)
+        out.print(page(found.boards, found.unread, found.ended), markup=False)
         if options.write is not None and any(b.causes for b in found.boards):
             out.print(f"\nThe variant is in {options.write}.", markup=False)
     return found.code
-
-
-def _logs(place: Path) -> Sequence[Path]:
-    if not place.is_dir():
-        return [place]
-    try:
-        return sorted(p for p in place.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
-    except OSError as error:
-        raise UsageError(f"Cannot read the folder {place}: {error.strerror}. Write another.") from error
-
-
-def _map(file: Path | None) -> ColumnMap:
-    try:
-        return ColumnMap() if file is None else read_map(file)
-    except LogError as error:
-        raise UsageError(str(error)) from error
 
 
 def _boards(file: Path | None) -> Mapping[str, Board]:
@@ -101,20 +90,18 @@ def _boards(file: Path | None) -> Mapping[str, Board]:
 
 def _read(
     logs: Sequence[Path], how: ColumnMap, system: str, found: FoundCauses
-) -> Mapping[str, list[Recording]]:
-    """The logs of each board that can be read to their ends."""
-    runs: dict[str, list[Recording]] = {}
+) -> Mapping[str, list[LoggedRun]]:
+    """The logs of each board that can be read."""
+    runs: dict[str, list[LoggedRun]] = {}
     for log in logs:
         try:
             one = logged_run(log, how, system)
-            for _ in one.run.blocks():
-                pass
         except LogError as error:
             found.unread[log.name] = str(error)
         except MemoryError:
             found.unread[log.name] = "takes more memory than there is; cut it into several logs."
         else:
-            runs.setdefault(one.board, []).append(one.run)
+            runs.setdefault(one.board, []).append(one)
     return runs
 
 

@@ -14,10 +14,14 @@ MOST_NAMES = 8
 MOST_PAIRS = 4
 
 
-def page(found: Sequence[BoardDiagnosis], unread: Mapping[str, str]) -> str:
+def page(found: Sequence[BoardDiagnosis], unread: Mapping[str, str], ended: Mapping[str, str]) -> str:
     """All that was found."""
     parts = [line for board in found for line in _board(board)]
     parts += [_lines("", f"{one_line(name)}: not read: {why}", 0, 2) for name, why in unread.items()]
+    parts += [
+        _lines("", f"{one_line(name)}: told up to what cannot be read: {why}", 0, 2)
+        for name, why in ended.items()
+    ]
     return "\n".join(parts)
 
 

@@ -238,6 +238,26 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
     )
 
 
+def reading_logs(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The argument of every verb about logs, and how they are read."""
+    return _with(
+        command,
+        click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR"),
+        click.option(
+            "--map",
+            "map_file",
+            type=click.Path(path_type=Path),
+            metavar="MAP.toml",
+            help="What the columns are (docs/logs.md).",
+        ),
+        click.option(
+            "--system",
+            metavar="NAME",
+            help="The board: board1 or board2; by default found from the columns.",
+        ),
+    )
+
+
 def knowing(command: Verb) -> Verb:
     """The options of every verb that compares what was recorded with the charts: known deviations."""
     writes = click.option(
