@@ -86,3 +86,12 @@ def test_what_has_no_meaning_is_one_message(options: tuple[str, str], tmp_path: 
 
 def test_a_folder_without_logs_has_its_code(tmp_path: Path) -> None:
     assert diagnose(str(tmp_path)) is Exit.NOTHING
+
+
+def test_a_torn_log_is_told_as_far_as_it_goes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    torn = tmp_path / "torn.csv"
+    torn.write_text((EXAMPLES / "good.csv").read_text(encoding="utf-8")[:-40], encoding="utf-8")
+    assert diagnose(str(torn)) is Exit.INCONCLUSIVE
+    told = " ".join(capsys.readouterr().out.split())
+    assert "no deviation from the charts" in told
+    assert "torn.csv: told up to what cannot be read: line" in told
