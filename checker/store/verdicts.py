@@ -15,8 +15,8 @@ from typing import Any
 from rovercheck.checker.cache import entries
 from rovercheck.checker.cache.places import STORE
 from rovercheck.checker.engines import Limits
-from rovercheck.checker.results.trace import NecessaryInputs
-from rovercheck.checker.results.verdict import StoredRun, Verdict, Violated
+from rovercheck.checker.results.trace import NecessaryInputs, Trace
+from rovercheck.checker.results.verdict import StoredRun, Unknown, Verdict, Violated
 from rovercheck.checker.store.content import ContentKeys, NoKey
 from rovercheck.checker.store.verdict_json import Definite, entry, necessary_inputs, necessary_row, verdict
 from rovercheck.checker.store.versions import as_loaded, deciding
@@ -44,6 +44,30 @@ class StoredVerdict:
             return True
         on_run = isinstance(self.verdict, Violated) != isinstance(prop.form, Reachable)
         return on_run == isinstance(self.verdict.because, StoredRun)
+
+
+@dataclass(frozen=True)
+class StoredNames:
+    """The names of the entries about a property; None where there is none.
+
+    ``question``: of systems as they are written.  ``slice``: of the slices that the verdict depends on.
+    ``own``, of a system that has more runs than the one it stands for: of its slice alone, which is all that
+    a proof depends on.  ``before``: of the latest run that was found, whatever the charts were.
+    """
+
+    question: str | None
+    slice: str | None
+    own: str | None = None
+    before: str | None = None
+
+    def fitting(self, found: Verdict, about_own: bool) -> tuple[str, ...]:
+        """The names to keep a verdict under; ``about_own``: it is about the property's own system."""
+        if isinstance(found, Unknown):
+            return ()
+        on_run = isinstance(found.because, Trace | StoredRun)
+        own, before = about_own and not on_run, on_run
+        names = self.question, self.slice, self.own if own else None, self.before if before else None
+        return tuple(name for name in names if name is not None)
 
 
 @dataclass
@@ -76,19 +100,32 @@ class VerdictStore:
 
         Of a system that may leave a domain, what decides that belongs to it.
         """
+        return self._slice(prop, self._texts(prop, systems))
+
+    def names(self, prop: Property, systems: Mapping[str, System]) -> "StoredNames":
+        """All names under which something about a property may be kept."""
+        texts = self._texts(prop, systems)
+        own = self._slice(prop, texts[:1]) if systems[prop.on].concrete else None
+        before = None if isinstance(prop.form, Unbounded) else self.about("before", prop)
+        return StoredNames(self.question(prop, systems), self._slice(prop, texts), own, before)
+
+    def _texts(self, prop: Property, systems: Mapping[str, System]) -> list[str | None]:
+        """The keys of the slices of the systems; one that cannot be read has none."""
         from rovercheck.checker.store.slices import slice_text
 
         if isinstance(prop.form, Unbounded):
-            return None
+            return [None]
         try:
-            texts = [
+            return [
                 slice_text(replace(prop, on=name), systems[name]) for name in self._systems(prop, systems)
             ]
-            if None in texts:  # what cannot be read would not be part of the key
-                return None
-            return self._name("slice", self._keys.key(replace(prop, on=""), *texts))
         except (NoKey, RecursionError, OSError):
+            return [None]
+
+    def _slice(self, prop: Property, texts: Sequence[str | None]) -> str | None:
+        if None in texts:  # what cannot be read would not be part of the key
             return None
+        return self.about("slice", replace(prop, on=""), *texts)
 
     @staticmethod
     def _systems(prop: Property, systems: Mapping[str, System]) -> list[str]:

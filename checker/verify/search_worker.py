@@ -41,7 +41,8 @@ _PAUSE = 0.5
 
 @dataclass(frozen=True)
 class PropertyDecided:
-    """What travels of a result: the property by its id, and what the store keeps with it.
+    """What travels of a result: the property by its id, the names under which the store keeps it, and what
+    was searched together.
 
     ``certificate``: of what was kept, how that was certified.
     """
@@ -49,7 +50,7 @@ class PropertyDecided:
     id: str
     verdict: Verdict
     system: str
-    slice: str | None = None
+    names: tuple[str, ...] = ()
     together: tuple[str, ...] = ()
     certificate: Outcome | None = None
 
@@ -164,7 +165,8 @@ class SearchWorker:
             self._expected = {id: one for id, one in kept.items() if id not in how}
         for id, outcome in how.items():
             one = kept[id]
-            send(PropertyDecided(id, one.verdict, one.system, stored.slices[id], one.together, outcome))
+            names = self._names(stored, id, one.verdict, one.system)
+            send(PropertyDecided(id, one.verdict, one.system, names, one.together, outcome))
         return list(how)
 
     def _decided(self, one: Result, task: Task, stored: "StoredTask | None") -> PropertyDecided:
@@ -176,7 +178,7 @@ class SearchWorker:
             return PropertyDecided(id, one.verdict, one.system)
         before = self._expected.get(id)
         if before is not None and {before.verdict.word, one.verdict.word} == {"proved", "violated"}:
-            for name in (stored.store.question(one.property, self._systems), stored.slices[id]):
+            for name in (stored.names[id].question, stored.names[id].slice, stored.names[id].own):
                 stored.store.remove(name)
             raise StoreContradiction(
                 f"{id} is kept as {before.verdict.word}, and decided anew it is {one.verdict.word}. Do not "
@@ -184,7 +186,12 @@ class SearchWorker:
                 "--no-store nothing kept is used."
             )
         together = tuple(p.id for p in task.properties)
-        return PropertyDecided(id, one.verdict, one.system, stored.slices[id], together)
+        names = self._names(stored, id, one.verdict, one.system)
+        return PropertyDecided(id, one.verdict, one.system, names, together)
+
+    @staticmethod
+    def _names(stored: "StoredTask", id: str, verdict: Verdict, system: str) -> tuple[str, ...]:
+        return stored.names[id].fitting(verdict, about_own=system == stored.task.system.name)
 
     def _certify(
         self,

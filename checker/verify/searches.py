@@ -165,7 +165,7 @@ def searches(
                     if isinstance(one, MachineWarning):
                         warned.add(one.text)
                     if isinstance(one, Result):
-                        keep(one, *asked[one.property.id].kept.get(one.property.id, (None, ())))
+                        keep(one, *asked[one.property.id].kept.get(one.property.id, ((), ())))
                         keep.flush()
                     yield one
                 keep.flush()
@@ -196,32 +196,33 @@ class _Keeping:
     store: "VerdictStore | None"
     systems: Mapping[str, System]
     gates: Mapping[str, "_Gate"]
-    _waiting: list[tuple[Result, str | None, Sequence[str]]] = field(default_factory=list)
+    _waiting: list[tuple[Result, Sequence[str], Sequence[str]]] = field(default_factory=list)
 
-    def __call__(self, one: Result, slice: str | None, together: Sequence[str]) -> None:
+    def __call__(self, one: Result, names: Sequence[str], together: Sequence[str]) -> None:
         if self.store is not None and not isinstance(one.certificate, Rejected):
-            self._waiting.append((one, slice, together))
+            named = names or filter(None, [self.store.question(one.property, self.systems)])
+            self._waiting.append((one, tuple(named), together))
 
     def flush(self) -> None:
         """Write what need not wait any longer."""
         waiting, self._waiting = self._waiting, []
-        for one, slice, together in waiting:
+        for one, names, together in waiting:
             if not all(self.gates[name].open for name in (one.property.on, one.system) if name in self.gates):
-                self._waiting.append((one, slice, together))
+                self._waiting.append((one, names, together))
             elif self.store is not None:
-                for name in (self.store.question(one.property, self.systems), slice):
+                for name in names:
                     self.store.write(name, one.verdict, one.system, together)
 
     def forget(
-        self, properties: Sequence[Property], known: Mapping[str, tuple[str | None, tuple[str, ...]]]
+        self, properties: Sequence[Property], known: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]]
     ) -> None:
         """Keep nothing of what was said of some properties."""
         ids = {p.id for p in properties}
         self._waiting = [row for row in self._waiting if row[0].property.id not in ids]
         if self.store is not None:
             for prop in (p for p in properties if p.id in known):
-                self.store.remove(self.store.question(prop, self.systems))
-                self.store.remove(known[prop.id][0])
+                for name in (self.store.question(prop, self.systems), *known[prop.id][0]):
+                    self.store.remove(name)
 
 
 class _Gate:
@@ -270,9 +271,8 @@ class _Returns:
         self._reported: dict[str, str] = {}
         self._taken = False
         self._anew = False
-        self.kept: dict[str, tuple[str | None, tuple[str, ...]]] = {}
-        """By property the name under which the store keeps what depends on the same slice, and what was
-        searched together."""
+        self.kept: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {}
+        """By property the names under which the store keeps it, and what was searched together."""
 
     def again(self) -> Order | None:
         """What to do after a crash: search with code compiled anew; None if that was not the cause.
@@ -315,8 +315,8 @@ class _Returns:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
             case PropertyDecided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
-            case PropertyDecided(id, verdict, system, slice, together, certificate):
-                self.kept[id] = slice, together
+            case PropertyDecided(id, verdict, system, names, together, certificate):
+                self.kept[id] = names, together
                 result = Result(self._left.pop(id), verdict, system, certificate=certificate)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from rovercheck.checker.certify.certificate import Certificate
 from rovercheck.checker.certify.check import CheckEffort, CheckMethod, check
@@ -14,11 +15,14 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.results.verdict import Run, StoredRun, Unknown
 from rovercheck.checker.store.verdict_json import Definite
-from rovercheck.checker.store.verdicts import StoredVerdict, VerdictStore
+from rovercheck.checker.store.verdicts import StoredNames, StoredVerdict, VerdictStore
 from rovercheck.checker.system.initial import require_initial_tick
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.portfolio.question import PortfolioQuestion
+from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.runs.known_runs import reached
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, Unbounded
@@ -37,25 +41,27 @@ class StoreContradiction(Exception):
 
 @dataclass(frozen=True)
 class StoredTask:
-    """A task, and what is kept of its properties.
-
-    ``slices`` are the names under which the store keeps what depends on the same slices.
-    """
+    """A task, and what is kept of its properties, under their names."""
 
     task: Task
     systems: Mapping[str, System]
     store: VerdictStore
-    slices: Mapping[str, str | None]
+    names: Mapping[str, StoredNames]
 
     @staticmethod
     def of(task: Task, systems: Mapping[str, System], store: VerdictStore) -> "StoredTask":
         """Raises ``ModelError`` for a system that has no run or is not well formed."""
         require_initial_tick(lowered(task.system))
-        return StoredTask(task, systems, store, {p.id: store.slice(p, systems) for p in task.properties})
+        names = {p.id: store.names(p, systems) for p in task.properties}
+        return StoredTask(task, systems, store, names)
 
     def kept(self, prop: Property) -> StoredVerdict | None:
-        """The verdict that is kept, its run replayed; what cannot be replayed is kept no longer."""
-        for name in (self.store.question(prop, self.systems), self.slices[prop.id]):
+        """The verdict that is kept, its run replayed; what cannot be replayed is kept no longer.
+
+        Where there is none, an earlier run that the property's system still has, if it still shows the same.
+        """
+        names = self.names[prop.id]
+        for name in (names.question, names.slice, names.own):
             found = self.store.read(name)
             fits = found is not None and found.fits(prop, self.systems)
             verdict = replayed(found, prop, self.systems) if found is not None and fits else None
@@ -63,7 +69,34 @@ class StoredTask:
                 return replace(found, verdict=verdict)
             if found is not None:
                 self.store.remove(name)
-        return None
+        return self._before(prop)
+
+    def _before(self, prop: Property) -> StoredVerdict | None:
+        """The earlier run, up to where it reaches the goal; whether there is a shorter one is not known."""
+        found = self.store.read(self.names[prop.id].before)
+        over = self.systems[prop.on].over
+        if found is None or not found.fits(prop, self.systems) or (over and found.system == prop.on):
+            return None
+        if not isinstance(found.verdict.because, StoredRun) or self._soon_asked_for_domains:
+            return None
+        here = replace(prop, on=found.system)
+        try:
+            run = _fitted(found.verdict.because.run, lowered(self.systems[found.system]))
+            cut = reached(self.systems[found.system], [here], [run]).get(prop.id)
+        except ModelError:
+            return None
+        if cut is None:
+            return None
+        known = replace(found.verdict, because=StoredRun(cut, 0, shortest=False))
+        verdict = replayed(replace(found, verdict=known), prop, self.systems)
+        return None if verdict is None else replace(found, verdict=verdict, together=())
+
+    @cached_property
+    def _soon_asked_for_domains(self) -> bool:
+        """Whether a search would soon find out if a system leaves a domain: then that is told, and no run."""
+        concrete = self.task.system.concrete
+        asked = [lowered(one) for one in (self.task.system, *([self.systems[concrete]] if concrete else []))]
+        return any(one.checks and shape(PortfolioQuestion(one, ())).enumerable for one in asked)
 
     def without(self, done: Sequence[str]) -> Task:
         """What is left of the task."""

@@ -156,11 +156,11 @@ def heard(monkeypatch: pytest.MonkeyPatch, tasks: Sequence[Task], *sent: tuple[i
 
 def violated(id: str) -> PropertyDecided:
     [found] = decided(lamp(), None, [of(id)])
-    return PropertyDecided(id, found.verdict, ON, "cd" * 32 + "-verdict-json", (id,))
+    return PropertyDecided(id, found.verdict, ON, ("cd" * 32 + "-verdict-json",), (id,))
 
 
 def proved(id: str) -> PropertyDecided:
-    return PropertyDecided(id, Proved(PROOF, "naive"), ON, "ef" * 32 + "-verdict-json", (id,))
+    return PropertyDecided(id, Proved(PROOF, "naive"), ON, ("ef" * 32 + "-verdict-json",), (id,))
 
 
 @pytest.fixture
