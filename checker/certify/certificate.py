@@ -15,7 +15,7 @@ from rovercheck.checker.certify.reduction import diagram
 from rovercheck.checker.certify.terms import TRUTH, Malformed, definitions
 from rovercheck.checker.certify.tick import conjuncts as parts
 from rovercheck.checker.certify.tick import executed
-from rovercheck.checker.results.closed_set import ClosedSet
+from rovercheck.checker.results.closed_set import ClosedSet, ClosedUnion
 from rovercheck.checker.results.diagram import Diagram as Bits
 from rovercheck.checker.results.diagram import formula
 from rovercheck.checker.results.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
@@ -63,9 +63,11 @@ def certificates(
     claims: dict[object, tuple[Evidence, list[str]]] = {}
     for goal in goals:
         match answers.get(goal.name):
-            case Unreachable(Exhausted(skipped=False, closed=ClosedSet() as closed) as because):
-                if len(closed) * len(closed.places) <= (MOST if most is None else most):
-                    claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
+            case Unreachable(
+                Exhausted(skipped=False, closed=ClosedSet() | ClosedUnion() as closed) as because
+            ):
+                if closed.size <= (MOST if most is None else most):
+                    claims.setdefault(_memory(closed.whole), (because, []))[1].append(goal.name)
             case Unreachable(Exhausted(skipped=False, diagram=shape)) if shape is not None:
                 claims.setdefault(id(shape), (_formula(shape, system), []))[1].append(goal.name)
             case Unreachable(Inductive() as because):
@@ -101,7 +103,7 @@ def _about(because: Evidence) -> tuple[str, ...]:
     if isinstance(because, Inductive):
         return tuple(variables(*because.conjuncts))
     assert because.closed is not None
-    return tuple(place.var.name for place in because.closed.places)
+    return tuple(place.var.name for place in because.closed.whole.places)
 
 
 def _certificate(
@@ -113,8 +115,8 @@ def _certificate(
         found = {"conjuncts": len(because.conjuncts)}
     else:
         assert because.closed is not None
-        invariant = diagram(because.closed)
-        found = {"valuations": len(because.closed), "depth": because.depth}
+        invariant = diagram(because.closed.whole)
+        found = {"valuations": len(because.closed.whole), "depth": because.depth}
     return Certificate(
         system.name,
         asked.claims,

@@ -8,14 +8,13 @@ from collections.abc import Iterator
 
 from rovercheck.checker.system.partition import expressions
 from rovercheck.checker.system.slice import Names, live_before, names
-from rovercheck.spec_model.lang.action import Assign, If
-from rovercheck.spec_model.lang.system import Program, Statement
+from rovercheck.spec_model.lang.system import Program
 
 
 def sunk(step: Program, stored: Names) -> tuple[Program, Program]:
     """The step in two parts, to be run one after the other; the second writes nothing that is stored."""
     reads = [names(expressions((s,))) for s in step]
-    writes = [frozenset(_written(s)) for s in step]
+    writes = [s.written for s in step]
     early: set[int] = set()
     while True:
         needed = set(_needed(step, stored, early, writes))
@@ -28,11 +27,11 @@ def sunk(step: Program, stored: Names) -> tuple[Program, Program]:
 
 def _needed(step: Program, stored: Names, early: set[int], writes: list[Names]) -> Iterator[int]:
     """The statements that what is stored depends on, and those said to come early: each as a whole."""
-    live, cache = stored, dict[int, Names]()
+    live = stored
     for at in reversed(range(len(step))):
         if at in early or writes[at] & live:
             yield at
-            live, _ = live_before((step[at],), live | writes[at], cache)
+            live, _ = live_before((step[at],), live | writes[at])
 
 
 def _overtaken(early: set[int], reads: list[Names], writes: list[Names]) -> Iterator[int]:
@@ -43,12 +42,3 @@ def _overtaken(early: set[int], reads: list[Names], writes: list[Names]) -> Iter
             after |= writes[at]
         elif not after.isdisjoint(reads[at] | writes[at]):
             yield at
-
-
-def _written(statement: Statement) -> Iterator[str]:
-    if isinstance(statement, Assign):
-        yield statement.var.name
-    else:
-        for inner in (*statement.then, *statement.otherwise):
-            if isinstance(inner, Assign | If):
-                yield from _written(inner)

@@ -4,12 +4,12 @@ A variable is known by a few values or by the interval between two.  Conditions 
 which branch is taken, and what a compared variable is worth in it; otherwise variables are unrelated.
 """
 
-from collections.abc import Iterable, Mapping, MutableMapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import count, product
 from math import prod
 
 from rovercheck.checker.system.intervals import Interval, postorder, transfer
-from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
 from rovercheck.spec_model.lang.domain import Domain
 from rovercheck.spec_model.lang.evaluate import operate
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
@@ -27,7 +27,7 @@ _PATIENCE = 12
 _DEEP = 12
 """Choices within one another up to which it is looked at what their conditions say."""
 _EFFORT, _NODE = 200_000_000, 100
-"""Variables that are copied, and for how many of them a formula counts: some seconds.  After half of them the
+"""Values that are copied, and for how many of them a formula counts: some seconds.  After half of them the
 conditions of choices are taken to say nothing, after all nothing is known: that costs memory only."""
 
 TRUE, FALSE, EITHER = frozenset({1}), frozenset({0}), frozenset({0, 1})
@@ -58,11 +58,11 @@ def _settled(system: TransitionSystem, effort: "_Effort") -> dict[str, Values]:
     before |= {v.name: whole(v.domain) for v in system.frozen}
     free = {v.name: whole(v.domain) for v in (*system.inputs, *system.temps)}
     domains = {v.name: _hull(whole(v.domain)) for v in (*system.variables, *system.temps)}
+    step = _Step(system.step, domains, effort)
     for tick in count():
         try:
-            after = _Step(domains, effort).run(
-                system.step, assumed(system.assume, True, {**before, **free}, effort)
-            )
+            after = assumed(system.assume, True, _Known({**before, **free}), effort)
+            step.run(after)
         except NoValue:  # the assumption can never be met
             return before
         joined = {name: _join(values, after[name]) for name, values in before.items()}
@@ -75,11 +75,48 @@ def _settled(system: TransitionSystem, effort: "_Effort") -> dict[str, Values]:
     raise AssertionError("a finite domain grows for ever")
 
 
+class _Known:
+    """What variables are worth at some place of a step: what is known there only, over what is everywhere.
+
+    A branch, or a choice, thus copies what conditions and assignments around it have changed, and no more.
+    """
+
+    __slots__ = ("_everywhere", "here")
+
+    def __init__(self, everywhere: dict[str, Values], here: dict[str, Values] | None = None) -> None:
+        self._everywhere = everywhere
+        self.here: dict[str, Values] = {} if here is None else here
+
+    def __getitem__(self, name: str) -> Values:
+        found = self.here.get(name)
+        return self._everywhere[name] if found is None else found
+
+    def __setitem__(self, name: str, values: Values) -> None:
+        self.here[name] = values
+
+    def inside(self) -> "_Known":
+        """The same, for a place within this one."""
+        return _Known(self._everywhere, dict(self.here))
+
+    def settle(self) -> None:
+        """Take what is known here to be known everywhere from now on."""
+        self._everywhere.update(self.here)
+        self.here.clear()
+
+
 class _Effort:
-    """Counts what is looked at."""
+    """Counts what is looked at, and knows in which order formulas are."""
 
     def __init__(self) -> None:
         self._left = _EFFORT
+        self._orders: dict[int, tuple[Expr, tuple[Expr, ...]]] = {}
+
+    def order(self, expr: Expr) -> tuple[Expr, ...]:
+        """The parts of a formula, those within others first."""
+        known = self._orders.get(id(expr))
+        if known is None:  # the formula is held, so that its id stays its own
+            known = self._orders[id(expr)] = expr, tuple(postorder(expr))
+        return known[1]
 
     @property
     def half(self) -> bool:
@@ -97,7 +134,7 @@ def possible(system: TransitionSystem) -> bool:
     """False where no inputs and frozen values ever meet the assumption."""
     everything = (*system.variables, *system.frozen, *system.inputs)
     try:
-        assumed(system.assume, True, {v.name: whole(v.domain) for v in everything}, _Effort())
+        assumed(system.assume, True, _Known({v.name: whole(v.domain) for v in everything}), _Effort())
     except NoValue:
         return False
     except _TooMuch:
@@ -147,12 +184,30 @@ def _meet(a: Values, low: int, high: int) -> Values:
 
 
 class _Step:
-    """Runs a program on all values at once."""
+    """Runs a program on all values at once, one time after another.
 
-    def __init__(self, domains: Mapping[str, Interval], effort: _Effort) -> None:
+    A statement that finds what it found the last time is not looked at again.
+    """
+
+    def __init__(self, program: Sequence[Action], domains: Mapping[str, Interval], effort: _Effort) -> None:
         self._domains, self._effort = domains, effort
+        self._statements = [(one, tuple({**reads([one]), **writes([one])})) for one in program]
+        self._last: dict[int, tuple[list[Values], dict[str, Values]]] = {}
 
-    def run(self, program: Sequence[Action], at: dict[str, Values]) -> dict[str, Values]:
+    def run(self, at: _Known) -> None:
+        """Run it from what is known before it, which becomes what is known after it."""
+        at.settle()
+        for number, (statement, names) in enumerate(self._statements):
+            given = [at[name] for name in names]
+            last = self._last.get(number)
+            if last is not None and last[0] == given:
+                at.here.update(last[1])
+            else:
+                self._run([statement], at)
+                self._last[number] = given, dict(at.here)
+            at.settle()
+
+    def _run(self, program: Sequence[Action], at: _Known) -> None:
         for statement in program:
             if isinstance(statement, Assign):
                 found = _Eval(at, self._effort)(statement.value)
@@ -162,37 +217,37 @@ class _Step:
                 except NoValue:  # it leaves its domain whatever happens: the search tells so
                     at[statement.var.name] = hull
             elif isinstance(statement, If):
-                at = self._branch(statement, at)
-        return at
+                self._branch(statement, at)
 
-    def _branch(self, statement: If, at: dict[str, Values]) -> dict[str, Values]:
-        after: list[dict[str, Values]] = []
+    def _branch(self, statement: If, at: _Known) -> None:
+        after: list[_Known] = []
         for truth, actions in ((True, statement.then), (False, statement.otherwise)):
             try:
-                after.append(self.run(actions, assumed(statement.condition, truth, at, self._effort)))
+                inside = assumed(statement.condition, truth, at, self._effort)
+                self._run(actions, inside)
             except NoValue:
                 continue
+            after.append(inside)
         if not after:
             raise NoValue
         a, b = after[0], after[-1]
-        return {name: _join(a[name], b[name]) for name in a}
+        for name in a.here.keys() | b.here.keys():
+            at[name] = _join(a[name], b[name])
 
 
-def assumed(
-    condition: Expr, truth: bool, at: Mapping[str, Values], effort: _Effort, depth: int = 0
-) -> dict[str, Values]:
+def assumed(condition: Expr, truth: bool, at: _Known, effort: _Effort, depth: int = 0) -> _Known:
     """What is known where a condition is true, or false.  Raises ``NoValue`` where it cannot be."""
     found = _Eval(at, effort, depth)(condition)
     if found == (FALSE if truth else TRUE):
         raise NoValue
-    effort.spend(len(at))
-    known = dict(at)
+    effort.spend(len(at.here))
+    known = at.inside()
     if found != (TRUE if truth else FALSE):
         _learn(condition, truth, known)
     return known
 
 
-def _learn(condition: Expr, truth: bool, known: MutableMapping[str, Values]) -> None:
+def _learn(condition: Expr, truth: bool, known: _Known) -> None:
     todo = [(condition, truth)]
     while todo:
         condition, truth = todo.pop()
@@ -243,16 +298,17 @@ _TURNED = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
 class _Eval:
     """The values of formulas where variables have some; ``depth`` counts the choices around them."""
 
-    def __init__(self, at: Mapping[str, Values], effort: _Effort, depth: int = 0) -> None:
+    def __init__(self, at: _Known, effort: _Effort, depth: int = 0) -> None:
         self._at, self._effort, self._depth = at, effort, depth
         self._done: dict[int, Values] = {}
 
     def __call__(self, expr: Expr) -> Values:
-        for node in postorder(expr):
-            if id(node) not in self._done:
+        done = self._done
+        for node in self._effort.order(expr):
+            if id(node) not in done:
                 self._effort.spend(_NODE)
-                self._done[id(node)] = self._of(node)
-        return self._done[id(expr)]
+                done[id(node)] = self._of(node)
+        return done[id(expr)]
 
     def _of(self, expr: Expr) -> Values:
         match expr:

@@ -1,7 +1,8 @@
 """A closed set of states: what an exhausted search visited, and no tick leads out of."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,15 +35,43 @@ class ClosedSet:
     def __len__(self) -> int:
         return len(self.words)
 
+    @property
+    def size(self) -> int:
+        """Values in it: states times variables."""
+        return len(self) * len(self.places)
 
-def union(
-    sets: Sequence[ClosedSet], variables: Sequence[Var], more: Iterable[Mapping[str, int]]
-) -> ClosedSet:
-    """All states of some sets, and ``more`` of them, in places of one layout.
+    @property
+    def whole(self) -> "ClosedSet":
+        """Itself."""
+        return self
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedUnion:
+    """All states of some sets, and ``more`` of them; put together only where somebody asks for the ``whole``.
 
     Each of the sets has a place for each of the ``variables``, whose domains may be wider than there.
     """
-    further = list(more)
+
+    sets: tuple[ClosedSet, ...]
+    variables: tuple[Var, ...]
+    more: tuple[Mapping[str, int], ...]
+
+    @property
+    def size(self) -> int:
+        """Values in it, or more: a state may be in several of the sets."""
+        return len(self.variables) * (sum(map(len, self.sets)) + len(self.more))
+
+    @cached_property
+    def whole(self) -> ClosedSet:
+        """The states in places of one layout."""
+        return union(self.sets, self.variables, self.more)
+
+
+def union(
+    sets: Sequence[ClosedSet], variables: Sequence[Var], further: Sequence[Mapping[str, int]]
+) -> ClosedSet:
+    """The states of a union."""
     words, places = [np.empty(0, dtype=np.uint64)], list[BitPlace]()
     used = 64
     for var in variables:

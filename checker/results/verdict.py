@@ -13,7 +13,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.properties.expected import VerdictWord
 
 if TYPE_CHECKING:
-    from rovercheck.checker.results.closed_set import ClosedSet
+    from rovercheck.checker.results.closed_set import ClosedSet, ClosedUnion
     from rovercheck.checker.results.diagram import Diagram
     from rovercheck.spec_model.lang.expr import Expr
 
@@ -44,7 +44,7 @@ class Exhausted:
     depth: int
     variables: tuple[str, ...]
     skipped: bool = False
-    closed: "ClosedSet | None" = field(default=None, compare=False, repr=False)
+    closed: "ClosedSet | ClosedUnion | None" = field(default=None, compare=False, repr=False)
     """The states themselves, as far as the engine kept them."""
     diagram: "Diagram | None" = field(default=None, compare=False, repr=False)
     """The set of them, where the engine kept a decision diagram of it; constants of the system included."""

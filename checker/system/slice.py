@@ -7,10 +7,11 @@ read can reach a goal.  Wires and outputs that every tick rewrites first therefo
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import cast
 
 from rovercheck.checker.system.partition import conjuncts, partition
 from rovercheck.properties.forms import Property, Recoverable
-from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.action import If
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of
@@ -46,55 +47,54 @@ def names(exprs: Iterable[Expr]) -> Names:
     return frozenset(variables(*exprs))
 
 
-def live_before(
-    program: Program, after: Names, reads: dict[int, Names] | None = None
-) -> tuple[Names, Program]:
+def live_before(program: Program, after: Names) -> tuple[Names, Program]:
     """Names whose value before the program can matter to the names ``after`` it, and the program
-    without the statements that cannot matter.  ``reads`` caches the names read, by ``id``."""
-    cache = {} if reads is None else reads
+    without the statements that cannot matter."""
+    live = set(after)
+    kept = _kept(program, live)
+    return frozenset(live), kept
+
+
+def _kept(program: Program, live: set[str]) -> Program:
+    """The program without what cannot matter to the ``live`` names, which become those before it."""
     kept: list[Statement] = []
-    live = after
     for statement in reversed(program):
-        live, remains = _statement(statement, live, cache)
-        kept += remains
-    return live, tuple(reversed(kept))
+        if statement.written.isdisjoint(live):
+            continue
+        if isinstance(statement, If):
+            kept += _kept_choice(statement, live)
+        else:
+            live.discard(statement.var.name)
+            live |= statement.read
+            kept.append(statement)
+    return tuple(reversed(kept))
 
 
-def _statement(statement: Statement, live: Names, cache: dict[int, Names]) -> tuple[Names, list[Statement]]:
-    if isinstance(statement, Assign):
-        if statement.var.name not in live:
-            return live, []
-        return (live - {statement.var.name}) | _read(statement.value, cache), [statement]
-    before_then, then = live_before(_only(statement.then), live, cache)
-    before_else, otherwise = live_before(_only(statement.otherwise), live, cache)
+def _kept_choice(statement: If, live: set[str]) -> list[Statement]:
+    before_else = set(live)
+    then = _kept(_program(statement.then), live)
+    otherwise = _kept(_program(statement.otherwise), before_else)
     if not then and not otherwise:
-        return live, []
+        return []
+    live |= before_else | statement.read
     same = _identical(then, statement.then) and _identical(otherwise, statement.otherwise)
-    whole = statement if same else If(statement.condition, then, otherwise)
-    return before_then | before_else | _read(statement.condition, cache), [whole]
+    return [statement if same else If(statement.condition, then, otherwise)]
 
 
-def _only(actions: Sequence[object]) -> Program:
+def _program(actions: Sequence[object]) -> Program:
     """A step holds no sends, which the type of a conditional cannot say."""
-    return tuple(a for a in actions if isinstance(a, Assign | If))
+    return cast(Program, actions)
 
 
 def _identical(a: Sequence[object], b: Sequence[object]) -> bool:
     return len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
 
 
-def _read(expr: Expr, cache: dict[int, Names]) -> Names:
-    if id(expr) not in cache:
-        cache[id(expr)] = names([expr])
-    return cache[id(expr)]
-
-
 def _cyclic(program: Program, wanted: Names, always: Names, written: Names) -> tuple[Names, Program]:
     """The least set of names live at the tick boundary, and the program sliced for it."""
-    cache: dict[int, Names] = {}
     live = always
     while True:
-        before, kept = live_before(program, wanted | (live & written), cache)
+        before, kept = live_before(program, wanted | (live & written))
         if before <= live:
             return live, kept
         live |= before
@@ -105,14 +105,7 @@ def _written(system: TransitionSystem) -> Names:
 
 
 def _all_read(program: Program) -> Names:
-    found: set[str] = set()
-    for statement in program:
-        if isinstance(statement, Assign):
-            found |= names([statement.value])
-        else:
-            found |= names([statement.condition])
-            found |= _all_read(_only(statement.then)) | _all_read(_only(statement.otherwise))
-    return frozenset(found)
+    return frozenset[str]().union(*(statement.read_inside for statement in program))
 
 
 # --- the assumption ------------------------------------------------------------------------------
@@ -191,7 +184,7 @@ def check_way_back(prop: Property, system: TransitionSystem) -> None:
 
 def _cut(system: TransitionSystem, live: Names, step: Program, kept: Sequence[Expr]) -> TransitionSystem:
     read = live | _all_read(step) | names(kept)
-    writes = _all_written(step)
+    writes = frozenset[str]().union(*(statement.written for statement in step))
     temps = (*system.temps, *(v for v in system.variables if v.name not in live))
     return replace(
         system,
@@ -202,13 +195,3 @@ def _cut(system: TransitionSystem, live: Names, step: Program, kept: Sequence[Ex
         step=step,
         assume=all_of(*kept) if kept else TRUE,
     )
-
-
-def _all_written(program: Program) -> Names:
-    found: set[str] = set()
-    for statement in program:
-        if isinstance(statement, Assign):
-            found.add(statement.var.name)
-        else:
-            found |= _all_written(_only(statement.then)) | _all_written(_only(statement.otherwise))
-    return frozenset(found)

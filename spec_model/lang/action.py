@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Union
 
 from rovercheck.spec_model.lang.domain import Bool, Num, show
@@ -18,6 +19,21 @@ class Assign:
     var: Var
     value: Expr
 
+    @cached_property
+    def read(self) -> frozenset[str]:
+        """The names of the variables that its value speaks of."""
+        return frozenset(variables(self.value))
+
+    @property
+    def read_inside(self) -> frozenset[str]:
+        """The same: it has no actions inside."""
+        return self.read
+
+    @cached_property
+    def written(self) -> frozenset[str]:
+        """The name of its variable."""
+        return frozenset({self.var.name})
+
     def __str__(self) -> str:
         return f"{self.var.name} := {text(self.value)}"
 
@@ -29,6 +45,25 @@ class If:
     condition: Expr
     then: tuple["Action", ...]
     otherwise: tuple["Action", ...] = ()
+
+    @cached_property
+    def read(self) -> frozenset[str]:
+        """The names of the variables that its condition speaks of, without those of its actions."""
+        return frozenset(variables(self.condition))
+
+    @cached_property
+    def read_inside(self) -> frozenset[str]:
+        """The names of the variables that it or its actions may read."""
+        return self.read.union(*(a.read_inside for a in self._inner))
+
+    @cached_property
+    def written(self) -> frozenset[str]:
+        """The names of all variables that its actions may write."""
+        return frozenset[str]().union(*(a.written for a in self._inner))
+
+    @property
+    def _inner(self) -> Iterator["Assign | If"]:
+        return (a for a in (*self.then, *self.otherwise) if not isinstance(a, Send))
 
     def __str__(self) -> str:
         shown = f"if {text(self.condition)} {{{'; '.join(map(str, as_calls(self.then)))}}}"

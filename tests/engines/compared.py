@@ -73,10 +73,10 @@ def must_agree(system: TransitionSystem, goal: Var, answer: Answer, expected: na
 def _closed(because: Exhausted) -> set[naive.State]:
     assert because.closed is not None
     found = set()
-    for row in because.closed.words.tolist():
+    for row in because.closed.whole.words.tolist():
         raw = {
             p.var.name: (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.low
-            for p in because.closed.places
+            for p in because.closed.whole.places
         }
         found.add(tuple((n, raw[n]) for n in because.variables))
     return found

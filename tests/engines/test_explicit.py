@@ -57,7 +57,7 @@ def agrees(system: TransitionSystem, wanted: tuple[Var, ...], naive: Searched) -
                 assert goal.name not in naive.reached
                 assert because.states == len(projected(naive.states, because.variables))
                 assert because.closed is not None
-                assert unpacked(because.closed) == projected(naive.states, because.variables)
+                assert unpacked(because.closed.whole) == projected(naive.states, because.variables)
             case _:
                 raise AssertionError(answer)
 

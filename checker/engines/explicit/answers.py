@@ -16,7 +16,7 @@ from rovercheck.checker.engines import Limits, Progress, Stage, Timers
 from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch, SearchUsage
 from rovercheck.checker.engines.explicit.lines import LineSearch
 from rovercheck.checker.engines.explicit.runs import Runs
-from rovercheck.checker.results.closed_set import BitPlace, ClosedSet, union
+from rovercheck.checker.results.closed_set import BitPlace, ClosedSet, ClosedUnion
 from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.domain import Enum
@@ -58,19 +58,21 @@ def about(case: str, answer: Answer) -> Answer:
     match answer:
         case Open(reason, depth):
             return Open(f"{case}: {reason}", depth)
-        case Unreachable(Exhausted(closed=closed) as because) if closed is not None and len(closed) > KEPT:
+        case Unreachable(Exhausted(closed=closed) as because) if (
+            isinstance(closed, ClosedSet) and len(closed) > KEPT
+        ):
             return Unreachable(replace(because, closed=None))
     return answer
 
 
 def joined(part: TransitionSystem, found: Sequence[Mapping[str, Answer]]) -> dict[str, Answer]:
     """What the cases of a slice together say of each goal."""
-    kept: dict[tuple[int, ...], ClosedSet | None] = {}
+    kept: dict[tuple[int, ...], ClosedUnion | None] = {}
     return {name: _joined(part, [answers[name] for answers in found], kept) for name in found[0]}
 
 
 def _joined(
-    part: TransitionSystem, answers: Sequence[Answer], kept: dict[tuple[int, ...], ClosedSet | None]
+    part: TransitionSystem, answers: Sequence[Answer], kept: dict[tuple[int, ...], ClosedUnion | None]
 ) -> Answer:
     reached = [a for a in answers if isinstance(a, Reached)]
     left = [a for a in answers if isinstance(a, Open)]
@@ -81,9 +83,10 @@ def _joined(
         return min(left, key=lambda a: a.depth)
     done = [a.because for a in answers if isinstance(a, Unreachable)]
     exhausted = [e for e in done if isinstance(e, Exhausted)]
-    memory = tuple(0 if e.closed is None else e.closed.words.ctypes.data for e in exhausted)
+    sets = [e.closed if isinstance(e.closed, ClosedSet) else None for e in exhausted]
+    memory = tuple(0 if one is None else one.words.ctypes.data for one in sets)
     if memory not in kept:
-        kept[memory] = _union(part, [e.closed for e in exhausted])
+        kept[memory] = _union(part, sets)
     return Unreachable(
         Exhausted(
             sum(e.states for e in exhausted),
@@ -96,7 +99,7 @@ def _joined(
     )
 
 
-def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedSet | None:
+def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedUnion | None:
     """The states of all cases, also of those in which no tick is possible: there they are initial."""
     sets = [one for one in found if one is not None]
     frozen = prod(len(v.domain) for v in part.frozen)
@@ -108,7 +111,7 @@ def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedS
         started | dict(zip(names, values, strict=True))
         for values in product(*(v.domain.values for v in part.frozen))
     )
-    return union(sets, (*part.frozen, *part.variables), initial)
+    return ClosedUnion(tuple(sets), (*part.frozen, *part.variables), tuple(initial))
 
 
 NARROW = 3 * WORD_BITS
