@@ -40,10 +40,12 @@ class StoredVerdict:
         """Whether it can be a verdict on that property: on its system, resting on what its form rests on."""
         if self.system not in (prop.on, systems[prop.on].concrete) or self.system not in systems:
             return False
+        run = isinstance(self.verdict.because, StoredRun)
+        if run and systems[self.system].over:
+            return False
         if isinstance(prop.form, Unbounded):
-            return True
-        on_run = isinstance(self.verdict, Violated) != isinstance(prop.form, Reachable)
-        return on_run == isinstance(self.verdict.because, StoredRun)
+            return isinstance(self.verdict, Violated) or not run
+        return run == (isinstance(self.verdict, Violated) != isinstance(prop.form, Reachable))
 
 
 @dataclass(frozen=True)
@@ -106,8 +108,9 @@ class VerdictStore:
         """All names under which something about a property may be kept."""
         texts = self._texts(prop, systems)
         own = self._slice(prop, texts[:1]) if systems[prop.on].concrete else None
-        before = None if isinstance(prop.form, Unbounded) else self.about("before", prop)
-        return StoredNames(self.question(prop, systems), self._slice(prop, texts), own, before)
+        return StoredNames(
+            self.question(prop, systems), self._slice(prop, texts), own, self.about("before", prop)
+        )
 
     def _texts(self, prop: Property, systems: Mapping[str, System]) -> list[str | None]:
         """The keys of the slices of the systems; one that cannot be read has none."""

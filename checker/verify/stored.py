@@ -13,12 +13,14 @@ from rovercheck.checker.certify.record import rests_on_answers
 from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.extras import CERTIFICATES
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run, StoredRun, Unknown
 from rovercheck.checker.store.verdict_json import Definite
 from rovercheck.checker.store.verdicts import StoredNames, StoredVerdict, VerdictStore
 from rovercheck.checker.system.initial import require_initial_tick
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.liveness.loops import loop_query, repeated
 from rovercheck.checker.verify.portfolio.question import PortfolioQuestion
 from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import Result
@@ -26,7 +28,7 @@ from rovercheck.checker.verify.runs.known_runs import reached
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, Unbounded
-from rovercheck.properties.reduce import reduce
+from rovercheck.properties.reduce import Question, reduce
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import System, TransitionSystem
@@ -74,22 +76,28 @@ class StoredTask:
     def _before(self, prop: Property) -> StoredVerdict | None:
         """The earlier run, up to where it reaches the goal; whether there is a shorter one is not known."""
         found = self.store.read(self.names[prop.id].before)
-        over = self.systems[prop.on].over
-        if found is None or not found.fits(prop, self.systems) or (over and found.system == prop.on):
+        if found is None or not found.fits(prop, self.systems):
             return None
         if not isinstance(found.verdict.because, StoredRun) or self._soon_asked_for_domains:
             return None
-        here = replace(prop, on=found.system)
+        known = self._as_far_as_needed(found.verdict.because, prop, self.systems[found.system])
+        if known is None:
+            return None
+        earlier = replace(found, verdict=replace(found.verdict, because=known), together=())
+        verdict = replayed(earlier, prop, self.systems)
+        return None if verdict is None else replace(earlier, verdict=verdict)
+
+    @staticmethod
+    def _as_far_as_needed(kept: StoredRun, prop: Property, system: System) -> StoredRun | None:
+        """The run up to where it reaches the goal; all of one without end."""
+        if isinstance(prop.form, Unbounded):
+            return replace(kept, shortest=False)
         try:
-            run = _fitted(found.verdict.because.run, lowered(self.systems[found.system]))
-            cut = reached(self.systems[found.system], [here], [run]).get(prop.id)
+            run = _fitted(kept.run, lowered(system))
+            found = reached(system, [replace(prop, on=system.name)], [run]).get(prop.id)
         except ModelError:
             return None
-        if cut is None:
-            return None
-        known = replace(found.verdict, because=StoredRun(cut, 0, shortest=False))
-        verdict = replayed(replace(found, verdict=known), prop, self.systems)
-        return None if verdict is None else replace(found, verdict=verdict, together=())
+        return None if found is None else StoredRun(found, 0, shortest=False)
 
     @cached_property
     def _soon_asked_for_domains(self) -> bool:
@@ -149,21 +157,32 @@ def _effort() -> CheckEffort:
 
 
 def replayed(kept: StoredVerdict, prop: Property, systems: Mapping[str, System]) -> Definite | None:
-    """The verdict that is kept, its run replayed; None where the run does not show it.
-
-    A run without end is not replayed but looked for again, and so is one that shows more than a run can.
-    """
+    """The verdict that is kept, its run replayed; None where the run does not show it."""
     because = kept.verdict.because
     if not isinstance(because, StoredRun):
         return kept.verdict
-    if isinstance(prop.form, Unbounded) or kept.system not in systems:
+    if kept.system not in systems:
         return None
     try:
         question = reduce(lowered(systems[kept.system]), [replace(prop, on=kept.system)])
-        trace = replay(question.system, question.goals[0], _fitted(because.run, question.system))
+        trace = _shown(question, because)
     except (ReplayError, ModelError, KeyError):
         return None
     return replace(kept.verdict, because=replace(trace, shortest=because.shortest))
+
+
+def _shown(question: Question, kept: StoredRun) -> Trace:
+    """The trace of a run, which is repeated where it is one without end.
+
+    Raises ``ReplayError`` where it shows nothing, or shows more than a run can: that no way leads back.
+    """
+    [goal] = question.goals
+    run = _fitted(kept.run, question.system)
+    if not isinstance(goal.property.form, Unbounded):
+        return replay(question.system, goal, run)
+    if kept.loop is None or kept.trapped is not None:
+        raise ReplayError(f"{goal.property.id}: no loop is kept.")
+    return repeated(loop_query(question, goal), run, kept.loop)
 
 
 def _fitted(run: Run, system: TransitionSystem) -> Run:
