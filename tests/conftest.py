@@ -14,7 +14,7 @@ import pytest
 from tests.profiles import register
 
 os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew, except below `compiled_once`
-if "PYTEST_XDIST_WORKER" not in os.environ:  # processes of one suite share a folder, which its first one makes
+if "PYTEST_XDIST_WORKER" not in os.environ:  # the processes of one suite share a folder; its first makes it
     _OURS = tempfile.TemporaryDirectory(prefix="rovercheck-tests-")
     os.environ["ROVERCHECK_TESTS_FOLDER"] = _OURS.name
 _FOLDER = Path(os.environ["ROVERCHECK_TESTS_FOLDER"])
@@ -51,8 +51,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def compiled_once() -> Iterator[None]:
     """Code of the same search is compiled once in the whole suite, and no verdict is kept.
 
-    For tests of what commands do with answers.  Not where code is compiled with a fault on purpose: the key of
-    an entry speaks of sources, so that other tests would get the faulty code.
+    For tests of what commands do with answers.  Not where code is compiled with a fault on purpose: the key
+    of an entry speaks of sources, so that other tests would get the faulty code.
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROVERCHECK_CACHE", str(_FOLDER / "compiled"))

@@ -9,7 +9,7 @@ from tests.engine_children import commands_here
 
 @pytest.fixture(scope="module", autouse=True)
 def _compiled_once(compiled_once: None) -> None:
-    """Commands are about what comes of a search: its code is tested in ``tests/encode`` and ``tests/engines``."""
+    """What is compiled is tested in ``tests/encode`` and ``tests/engines``, without a cache."""
 
 
 @pytest.fixture
