@@ -56,7 +56,7 @@ CASES = [
     for choice in interpretation.choices
     if choice not in interpretation.not_modelled and choice != interpretation.default
 ]
-"""Which systems each changes is found when they are tested: every process that runs tests would wait for it."""
+"""Which systems each changes is found when they are tested: every process of the suite would wait for it."""
 
 
 @pytest.mark.parametrize(("id", "choice"), CASES)
