@@ -13,9 +13,12 @@ import pytest
 
 from tests.profiles import register
 
-os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew
-_OURS = tempfile.TemporaryDirectory(prefix="rovercheck-tests-")
-os.environ["ROVERCHECK_SECRET"] = str(Path(_OURS.name, "cache-secret"))  # the user's is no business of tests
+os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew, except below `compiled_once`
+if "PYTEST_XDIST_WORKER" not in os.environ:  # the processes of one suite share a folder; its first makes it
+    _OURS = tempfile.TemporaryDirectory(prefix="rovercheck-tests-")
+    os.environ["ROVERCHECK_TESTS_FOLDER"] = _OURS.name
+_FOLDER = Path(os.environ["ROVERCHECK_TESTS_FOLDER"])
+os.environ["ROVERCHECK_SECRET"] = str(_FOLDER / "cache-secret")  # the user's is no business of tests
 # The command is found by its name, as in an environment that is activated: so it is called in what is shown.
 os.environ["PATH"] = os.pathsep.join((str(Path(sys.executable).parent), os.environ.get("PATH", "")))
 
@@ -42,6 +45,19 @@ def pytest_collection_finish() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Long tests first: one that begins late keeps the other processes waiting."""
     items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
+@pytest.fixture(scope="module")
+def compiled_once() -> Iterator[None]:
+    """Code of the same search is compiled once in the whole suite, and no verdict is kept.
+
+    For tests of what commands do with answers.  Not where code is compiled with a fault on purpose: the key
+    of an entry speaks of sources, so that other tests would get the faulty code.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROVERCHECK_CACHE", str(_FOLDER / "compiled"))
+        patch.setenv("ROVERCHECK_STORE", "")
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -32,8 +32,8 @@ class StateEstimator:
         self.incomplete: set[str] = set()
         self.runs_left = FIRST_RUNS
         self._step = cone.step
-        self._state = [v.name for v in cone.system.variables]
-        self._inputs = [v.name for v in cone.system.inputs]
+        self._state = {v.name: at for at, v in enumerate(cone.system.variables)}
+        self._inputs = {v.name: at for at, v in enumerate(cone.system.inputs)}
         self._apart = [_apart(o.signal.domain.sort, tolerance.get(o.name)) for o in cone.outputs]
         self._remembered: dict[tuple[Known, Known], tuple[tuple[BeliefOutcome, ...], frozenset[str]]] = {}
         self._asked: Counter[str] = Counter()
@@ -104,16 +104,18 @@ class StateEstimator:
         if not self.cone.complete(name):
             self._guessed.add(name)
         if name in self._inputs:
-            return [(before, _with(given, self._inputs.index(name), value)) for value in values]
-        return [(_with(before, self._state.index(name), value), given) for value in values]
+            return [(before, row) for row in _rows(given, self._inputs[name], values)]
+        return [(row, given) for row in _rows(before, self._state[name], values)]
 
     def _too_many(self) -> TooMany:
         most = [name for name, _ in self._asked.most_common(3)]
         return TooMany(", ".join(most) or "what is not logged")
 
 
-def _with(values: Known, index: int, value: Raw) -> Known:
-    return (*values[:index], value, *values[index + 1 :])
+def _rows(known: Known, index: int, values: Sequence[Raw]) -> list[Known]:
+    """The same with each of the values at a place."""
+    before, after = known[:index], known[index + 1 :]
+    return [(*before, value, *after) for value in values]
 
 
 def _apart(sort: object, tolerance: float | None) -> float | None:

@@ -16,10 +16,17 @@ from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.search import Run
 from rovercheck.spec_model.abstraction import boards
 from tests.compare import cross_faults
+from tests.compare.scenes import once
 from tests.schemas import published
 
 FAULTS = Path(cross_faults.__file__)
 WIDTH = 80
+
+
+@once
+def recorded(env: Environment) -> Iterator[Run]:
+    """The recorded counterexamples."""
+    return recorded_runs.counterexamples(env.board)
 
 
 @pytest.fixture(autouse=True)
@@ -27,7 +34,7 @@ def _on_counterexamples_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """On the recorded counterexamples and the tests of a folder; tests/compare has the other runs."""
 
     def known(env: Environment, folder: Path | None) -> Iterator[Run]:
-        yield from recorded_runs.counterexamples(env.board)
+        yield from recorded(env)
         yield from recorded_runs.tests(folder, env.board) if folder else ()
 
     monkeypatch.setattr(check, "_known", known)

@@ -19,7 +19,7 @@ from rovercheck.checker.compare.search import Run
 from rovercheck.checker.conformance.known_file import known_of, known_text
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.errors import ModelError
-from tests.compare.scenes import scenes
+from tests.compare.scenes import once, scenes
 from tests.logs.recorded import Row, copied, long_log, written
 from tests.schemas import published
 
@@ -48,15 +48,16 @@ TURN = "found['omega_user'] = found['omega_user'] + 0.25"
 WARM_LATER = "read['temperature_degC'] = min(read['temperature_degC'], 59.0)"
 
 
+@once
+def short_runs(env: Environment) -> Iterator[Run]:
+    """The scenes of tests/compare and a few runs of the model checker."""
+    yield from scenes(env)
+    yield from islice(counterexamples(env.board), 5)
+
+
 @pytest.fixture(autouse=True)
-def _on_scenes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On the scenes of tests/compare and a few runs of the model checker."""
-
-    def known(env: Environment, folder: Path | None) -> Iterator[Run]:
-        yield from scenes(env)
-        yield from islice(counterexamples(env.board), 5)
-
-    monkeypatch.setattr(check, "_known", known)
+def _on_short_runs_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(check, "_known", lambda env, folder: short_runs(env))
 
 
 def firmware(folder: Path, reads: Sequence[str] = (), gives: Sequence[str] = ()) -> str:

@@ -1,11 +1,16 @@
 """Short runs that put a part of a board to the test each."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 from rovercheck.checker.compare.beside import played
+from rovercheck.checker.compare.check import RunCache
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.search import Run
 from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
+
+Runs = Callable[[Environment], Iterable[Run]]
 
 SCENES: dict[str, dict[str, list[tuple[int, dict[str, float]]]]] = {
     "board1": {
@@ -31,3 +36,14 @@ def scenes(env: Environment) -> Iterator[Run]:
         held = [InputBlock(steps, (*env.at_rest, *first.items()))]
         held += [InputBlock(n, tuple(changes.items())) for n, changes in rest]
         yield name, played(env.board, env.fields, Stimulus(tuple(held)))
+
+
+def once(runs: Callable[[Environment], Iterator[Run]]) -> Runs:
+    """The same, gone through once for all tests on the boards as drawn; other charts each time."""
+    drawn = {name: RunCache(partial(runs, env)) for name, env in ENVIRONMENTS.items()}
+
+    def asked(env: Environment) -> Iterable[Run]:
+        name = env.board.name
+        return drawn[name] if env is ENVIRONMENTS.get(name) else runs(env)
+
+    return asked
