@@ -5,6 +5,7 @@ import re
 import traceback
 from collections.abc import Sequence
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
@@ -90,6 +91,8 @@ def _hint(error: BaseException, neighbours: Neighbours) -> str:
     if isinstance(error, TypeError) and _FORMULA.fullmatch(str(error)):
         return " A formula is no list; join conditions with & and |, or with all_of(...) and any_of(...)."
     name = (getattr(error, "name", None) or "").partition(".")[0]
+    if isinstance(error, NameError) and name in import_module("rovercheck.language").__all__:
+        return f" It is a word of the language: write `from rovercheck import {name}`."
     if isinstance(error, ModuleNotFoundError) and name in ("spec_model", "properties"):
         return " What a model needs is imported from one place: write `from rovercheck import ...`."
     if isinstance(error, ImportError) and name in neighbours.hidden():

@@ -1,4 +1,4 @@
-"""Lengths of time: ``4 * sec``, ``500 * ms``, ``2 * ticks``, and their number of ticks."""
+"""Lengths of time: ``4 * sec``, ``3 * sec + 20 * ms``, ``2 * ticks``, and their number of ticks."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -20,9 +20,19 @@ class Span:
     __rmul__ = __mul__
 
     def __add__(self, other: object) -> "Span":
-        raise ModelError(f"{self} and {other} are not added; write one length, such as `3020 * ms`.")
+        if isinstance(other, Span) and other.unit == self.unit:
+            return Span(self.amount + other.amount, self.unit)
+        raise ModelError(
+            f"{self} and {other} are not added: how long a tick is, is the system's to say. Write one "
+            "length, in ms or in ticks."
+        )
 
-    __sub__ = __radd__ = __rsub__ = __add__
+    __radd__ = __add__
+
+    def __sub__(self, other: object) -> "Span":
+        raise ModelError(f"{other} is not taken from {self}; write one length, in ms or in ticks.")
+
+    __rsub__ = __sub__
 
     def ticks(self, tick_ms: int) -> int:
         """The number of ticks.  Raises ``ModelError`` unless it is a whole number >= 0."""

@@ -199,7 +199,7 @@ WRONG = {
     "a distance": ("x = abs(minutes)", "`abs(minutes)`: write absolute(minutes)."),
     "the greater": ("x = max(minutes, 3)", "ite(), minimum(), maximum() for if, min, max;"),
     "every one of a formula": ("x = all(hot)", "A formula is no list; join conditions with & and |, or with"),
-    "a sum of times": ("x = 3 * sec + 20 * ms", "3 s and 20 ms are not added; write one length, such as"),
+    "a sum of times": ("x = 3 * sec + 2 * ticks", "3 s and 2 ticks are not added: how long a tick is"),
     "a short duration": ("x = duration(hot) < 3 * sec", "not by <; write `~(duration(hot) >= ...)`."),
     "an exact duration": ("x = duration(hot) == 3 * sec", "not by ==; write `duration(hot) >= ...`."),
     "a text assigned to": (

@@ -144,12 +144,17 @@ def _unexpected(error: UnexpectedInput, text: str) -> LabelError:
     return LabelError(f"{unexpected}; {hint or f'expected {_listed(expected)}'}.", found)
 
 
+_SIGNS = {"and": "&&", "or": "||", "not": "!"}
+
+
 def _hint(text: str, found: Extent, expected: Iterable[str]) -> str | None:
     """What is most often meant."""
     rest = text[found.start :]
     for written, said in _HINTS.items():
         if rest.startswith(written):
             return said
+    if word := re.match(r"(and|or|not)\b", rest):
+        return f"write `{_SIGNS[word[1]]}` for `{word[1]}`"
     before = text[: found.start]
     if rest.startswith("=") and "ASSIGN" not in expected and before.count("[") > before.count("]"):
         return "`=` assigns: compare with `==`"
