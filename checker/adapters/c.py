@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.adapters import LIMITS, AdapterLimits, c_calls
-from rovercheck.checker.adapters.c_build import built, is_library
+from rovercheck.checker.adapters.c_build import built, in_one_line, is_library
 from rovercheck.checker.adapters.c_map import CMap, read
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
 from rovercheck.checker.adapters.process import Process, ours
@@ -83,4 +83,4 @@ def _notes(c: CMap, board: "Board", warnings: str) -> list[str]:
     found = (
         [f"{c.file}: inputs without a place, which it is not given: {', '.join(unread)}"] if unread else []
     )
-    return [*found, f"The compiler warns:\n{warnings}"] if warnings else found
+    return [*found, in_one_line(warnings)] if warnings else found

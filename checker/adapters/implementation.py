@@ -57,6 +57,9 @@ def run(implementation: Implementation, inputs: Sequence[Values]) -> Sequence[Va
 
 
 def notes(implementation: Implementation) -> Sequence[str]:
-    """What a person should know about how it is run: warnings of a compiler, inputs that it does not read."""
+    """What a person should know about how it is run: warnings of a compiler, inputs that it does not read.
+
+    Of several lines the first says it in short, and the others at length.
+    """
     found: Sequence[str] = getattr(implementation, "notes", ())
     return found
