@@ -45,8 +45,10 @@ class CompiledC(Process):
     def __init__(self, address: str, path: Path, c: CMap, board: "Board", limits: AdapterLimits) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="rovercheck-")
         try:
-            library, warnings = built(path, c, Path(self._folder.name))
-            connect = partial(ours, c_calls.__name__, _options(library, path, c), limits)
+            library, warnings = built(path, c, Path(self._folder.name), limits.flags)
+            connect = partial(
+                ours, c_calls.__name__, {**_options(library, path, c), "hostile": limits.hostile}, limits
+            )
             names = [o.name for o in board.outputs]
             super().__init__(address, connect, names, limits, _notes(c, board, warnings))
         except BaseException:

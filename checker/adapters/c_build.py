@@ -35,11 +35,12 @@ def compiler() -> str | None:
     )
 
 
-def built(path: Path, c: CMap, folder: Path) -> tuple[Path, str]:
+def built(path: Path, c: CMap, folder: Path, more: Sequence[str] = ()) -> tuple[Path, str]:
     """The shared object, made in ``folder``, and what the compiler warned of.
 
-    ``path`` is a C file, a folder of them, or a shared object.  Raises ``ImplementationError`` with the words
-    of the compiler.
+    ``path`` is a C file, a folder of them, or a shared object; ``more`` are flags of its sources.
+
+    Raises ``ImplementationError`` with the words of the compiler.
     """
     cc = compiler()
     if cc is None:
@@ -55,7 +56,7 @@ def built(path: Path, c: CMap, folder: Path) -> tuple[Path, str]:
     strict = ["-std=gnu11", *(f"-Werror={name}" for name in STRICT)]
     _compile([*common, *strict, "-c", str(source), "-o", str(middle), *c.flags], c.file)
     link = ["-Wall", "-shared", "-o", str(made), str(middle), *code, *_linking(path)]
-    return made, _compile([*common, *link, *c.flags, "-lm"], path)
+    return made, _compile([*common, *link, *c.flags, *more, "-lm"], path)
 
 
 def is_library(path: Path) -> bool:

@@ -9,7 +9,7 @@ from itertools import count
 from typing import Any
 
 from rovercheck.checker.adapters.child import PowerUp, RefusedStep
-from rovercheck.checker.adapters.implementation import Value, Values
+from rovercheck.checker.adapters.implementation import KEPT, Value, Values
 from rovercheck.spec_model.lang.domain import exact
 
 INTEGERS = frozenset({
@@ -51,12 +51,18 @@ class CLibrary:
     """A compiled supervisor at power-up."""
 
     def __init__(
-        self, library: ctypes.CDLL, inputs: Sequence[HeldPointer], outputs: Sequence[HeldPointer]
+        self,
+        library: ctypes.CDLL,
+        inputs: Sequence[HeldPointer],
+        outputs: Sequence[HeldPointer],
+        hostile: bool = False,
     ) -> None:
+        """``hostile``: an input that a place cannot hold stays as it was, an odd output is given as it is."""
         self._library, self._inputs = library, inputs
         self._names = [held.signal for held in inputs]
-        self._put = [(n, _putting(held)) for n, held in enumerate(inputs) if not _as_it_is(held)]
-        self._get = [(held.signal, _getting(held)) for held in outputs]
+        self._put = [(n, _putting(held, hostile)) for n, held in enumerate(inputs) if not _as_it_is(held)]
+        self._get = [(held.signal, _getting(held, hostile)) for held in outputs]
+        self._hostile, self._latest = hostile, [0.0] * len(inputs)
         self._in: Any = (ctypes.c_double * len(inputs))()
         self._out = (ctypes.c_double * len(outputs))()
         self._call = library.rovercheck_step
@@ -68,17 +74,24 @@ class CLibrary:
         for index, put in self._put:
             numbers[index] = put(numbers[index])
         self._in[:] = numbers
-        if wrong := self._call(self._in, self._out):
-            raise RefusedStep(_unfit(self._inputs[wrong - 1], inputs, numbers[wrong - 1]))
+        kept: dict[str, Value] = {}
+        while wrong := self._call(self._in, self._out):
+            if not self._hostile or self._in[wrong - 1] == self._latest[wrong - 1]:
+                raise RefusedStep(_unfit(self._inputs[wrong - 1], inputs, numbers[wrong - 1]))
+            self._in[wrong - 1] = self._latest[wrong - 1]
+            kept[f"{KEPT}{self._names[wrong - 1]}"] = True
+        self._latest[:] = self._in
         found = ((name, get(value)) for (name, get), value in zip(self._get, self._out, strict=True))
-        return {name: value for name, value in found if value is not None}
+        return {name: value for name, value in found if value is not None} | kept
 
     def end(self) -> None:
         """Call what the mapping file gives for the end."""
         self._library.rovercheck_terminate()
 
 
-def made(library: str, before: str, inputs: Sequence[Any], outputs: Sequence[Any]) -> PowerUp:
+def made(
+    library: str, before: str, inputs: Sequence[Any], outputs: Sequence[Any], hostile: bool = False
+) -> PowerUp:
     """Power-ups of a shared object that was compiled with its shim; ``before`` is loaded first."""
     try:
         if before:
@@ -106,7 +119,7 @@ def made(library: str, before: str, inputs: Sequence[Any], outputs: Sequence[Any
 
     ins = [held(place, loaded.rovercheck_input_type(n)) for n, place in enumerate(inputs)]
     outs = [held(place, loaded.rovercheck_output_type(n)) for n, place in enumerate(outputs)]
-    return lambda: CLibrary(loaded, ins, outs)
+    return lambda: CLibrary(loaded, ins, outs, hostile)
 
 
 def _check_values(signal: str, values: Sequence[tuple[int, float]]) -> None:
@@ -143,7 +156,7 @@ def _counting() -> Callable[[float], float]:
     return put
 
 
-def _putting(held: HeldPointer) -> Callable[[float], float]:
+def _putting(held: HeldPointer, hostile: bool = False) -> Callable[[float], float]:
     """What a place holds for a value."""
     if held.counts:
         return _counting()
@@ -152,6 +165,8 @@ def _putting(held: HeldPointer) -> Callable[[float], float]:
 
     def put(value: float) -> float:
         if numbers:
+            if hostile:
+                return numbers.get(int(value), value) if value == int(value) else value
             if value not in numbers:
                 raise RefusedStep(f"{held.signal} = {value:g}: the mapping file gives no C value for it")
             return numbers[int(value)]
@@ -164,7 +179,7 @@ def _putting(held: HeldPointer) -> Callable[[float], float]:
     return put
 
 
-def _getting(held: HeldPointer) -> Callable[[float], Value | None]:
+def _getting(held: HeldPointer, hostile: bool = False) -> Callable[[float], Value | None]:
     """The value for what a place holds; None while it holds what is no value yet."""
     meanings = {raw: number for number, raw in held.values}
     scale, offset = _linear(held)
@@ -174,6 +189,8 @@ def _getting(held: HeldPointer) -> Callable[[float], Value | None]:
         if held.not_yet and (raw in held.not_yet or (unknown and math.isnan(raw))):
             return None
         if meanings:
+            if raw not in meanings and hostile:
+                return raw
             if raw not in meanings:
                 raise RefusedStep(
                     f"{held.signal}: {held.at} is {raw:g}, which the mapping file does not explain"

@@ -10,6 +10,10 @@ Values = Mapping[str, Value]
 """Concrete values by the names that ``spec_model.abstraction`` gives the signals of a board."""
 
 
+KEPT = "kept:"
+"""Before the name of an input that a place could not hold and was not given, in answers to odd inputs."""
+
+
 class ImplementationError(Exception):
     """The implementation under test could not be run: it is missing something, crashed, hung or spoke
     garbage.
