@@ -92,7 +92,7 @@ def test_the_twin_of_board_1_conforms_with_the_map_as_it_is_proposed(tmp_path, m
     assert found.code is Exit.AS_EXPECTED and "board1 conforms" in found.out
 
 
-STYLES = {
+STYLES: dict[str, tuple[str, str, dict[str, str | None]]] = {
     "pointers": (
         """
         #include "platform_that_is_not_here.h"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rovercheck.checker.adapters.implementation import ImplementationError
+from rovercheck.checker.adapters.implementation import ImplementationError, Value
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.robustness.odd_inputs import odd_runs, odd_values, started_inputs
@@ -97,14 +97,14 @@ PLANTED = {
     ),
     "a clock that is taken for signed": (
         "uint32_t age = in.now - in.heartbeat",
-        "int32_t age = (int32_t)in.now + 1000 - (int32_t)in.heartbeat",
+        "int32_t due = (int32_t)in.heartbeat + 120;\n  uint32_t age = (int32_t)in.now > due ? 121U : 0U",
         "crash",
         "signed integer overflow",
         "",
         True,
     ),
 }
-"""What is replaced by what; what is then found, in these words, by this input; whether only sanitizers see it."""
+"""What is replaced by what; what is found, in which words, by which input; whether sanitizers must see it."""
 
 
 def written(folder: Path, old: str = "", new: str = "") -> str:
@@ -260,7 +260,7 @@ def test_a_run_is_as_short_as_it_can_be():
         return {"v_ref": 0.0}
 
     search = RobustnessSearch(BOARD, Answers(of), RULES)
-    moments = tuple(
+    moments: tuple[dict[str, Value], ...] = tuple(
         {"btn1": 2 if n == 3 else False, "cmd": 255 if n > 2 else 0, "btn2": 255} for n in range(30)
     )
     result = search.run([("a run", 0, ({}, *moments))])
