@@ -27,7 +27,7 @@ class RobustnessOptions:
 @click.option("--impl", metavar="KIND:WHAT", required=True, help="The supervisor, as for compare.")
 @click.option("--system", metavar="NAME", help="The board: board1 or board2.")
 @click.option(
-    "--rules", type=click.Path(path_type=Path), metavar="FILE", help="What must hold (docs/robustness.md)."
+    "--rules", type=click.Path(path_type=Path), metavar="FILE", help="What must hold (docs/firmware.md)."
 )
 @click.option(
     "--runs", type=click.IntRange(min=0), default=200, show_default=True, metavar="N", help="Random runs."

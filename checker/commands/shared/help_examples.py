@@ -62,6 +62,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "reports": ("rovercheck reports", "rovercheck reports --stale"),
     "requirements": ("rovercheck requirements", "rovercheck requirements --check --json"),
+    "robustness": (
+        "rovercheck robustness --system board1 --impl c:examples/board1_c",
+        "rovercheck robustness --model heater.py --impl c:firmware --rules rules.toml -o findings",
+    ),
     "simulate": ("rovercheck simulate examples/scenarios/link_loss.toml --log steps",),
     "generate-tests": (
         "rovercheck generate-tests --kept --system board1",
