@@ -64,7 +64,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "requirements": ("rovercheck requirements", "rovercheck requirements --check --json"),
     "robustness": (
         "rovercheck robustness --system board1 --impl c:examples/board1_c",
-        "rovercheck robustness --model heater.py --impl c:firmware --rules rules.toml -o findings",
+        "rovercheck robustness --model heater.py --impl c:firmware -o findings",
     ),
     "simulate": ("rovercheck simulate examples/scenarios/link_loss.toml --log steps",),
     "generate-tests": (
