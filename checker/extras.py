@@ -37,6 +37,7 @@ CERTIFICATES = Extra(
 )
 PLOT = Extra("plot", "matplotlib", "matplotlib", "plots of simulate")
 PARQUET = Extra("parquet", "pyarrow", "pyarrow", "Parquet logs in check-log")
+FIRMWARE = Extra("firmware", "tree-sitter-c", "tree_sitter_c", "map init, which reads sources in C")
 
-EXTRAS: Mapping[str, Extra] = {one.name: one for one in (CERTIFICATES, PLOT, PARQUET)}
+EXTRAS: Mapping[str, Extra] = {one.name: one for one in (CERTIFICATES, PLOT, PARQUET, FIRMWARE)}
 """All of them by name; ``rovercheck[all]`` brings them together (``pyproject.toml``)."""

@@ -21,6 +21,8 @@ PAGES = "docs"
 PACKAGES = (TOP, *sorted(SETTINGS["tool"]["hatch"]["build"]["targets"]["wheel"]["sources"].keys() - {PAGES}))
 """The folders of what is installed: the first, and those that are packages below it."""
 DISTRIBUTION = {
+    "tree_sitter": "tree-sitter-c[core]",
+    "tree_sitter_c": "tree-sitter-c[core]",
     "annotated_types": "annotated-types",
     "pysat": "python-sat",
     "typing_extensions": "typing-extensions",

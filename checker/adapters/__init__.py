@@ -8,7 +8,8 @@ the signature of ``Adapter.start``.  What an implementation does, it does in a p
 
 import importlib
 import pkgutil
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
@@ -20,11 +21,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class AdapterLimits:
-    """What an implementation may spend: seconds for one step, seconds to start, bytes of its own data."""
+    """What an implementation may spend: seconds for one step, seconds to start, bytes of its own data.
+
+    ``hostile``: it is given what its places hold, whether or not the board has such a value, and what it
+    cannot hold not at all.  ``flags`` compile its sources besides, ``environment`` is added to its process.
+    """
 
     step: float = 5.0
     start: float = 30.0
     memory: int = 4 << 30
+    hostile: bool = False
+    flags: tuple[str, ...] = ()
+    environment: Mapping[str, str] = field(default_factory=dict)
 
 
 LIMITS = AdapterLimits()

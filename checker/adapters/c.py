@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.adapters import LIMITS, AdapterLimits, c_calls
-from rovercheck.checker.adapters.c_build import built, is_library
+from rovercheck.checker.adapters.c_build import built, in_one_line, is_library
 from rovercheck.checker.adapters.c_map import CMap, read
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
 from rovercheck.checker.adapters.process import Process, ours
@@ -45,8 +45,10 @@ class CompiledC(Process):
     def __init__(self, address: str, path: Path, c: CMap, board: "Board", limits: AdapterLimits) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="rovercheck-")
         try:
-            library, warnings = built(path, c, Path(self._folder.name))
-            connect = partial(ours, c_calls.__name__, _options(library, path, c), limits)
+            library, warnings = built(path, c, Path(self._folder.name), limits.flags)
+            connect = partial(
+                ours, c_calls.__name__, {**_options(library, path, c), "hostile": limits.hostile}, limits
+            )
             names = [o.name for o in board.outputs]
             super().__init__(address, connect, names, limits, _notes(c, board, warnings))
         except BaseException:
@@ -83,4 +85,4 @@ def _notes(c: CMap, board: "Board", warnings: str) -> list[str]:
     found = (
         [f"{c.file}: inputs without a place, which it is not given: {', '.join(unread)}"] if unread else []
     )
-    return [*found, f"The compiler warns:\n{warnings}"] if warnings else found
+    return [*found, in_one_line(warnings)] if warnings else found

@@ -23,6 +23,7 @@ COLUMN = re.compile(r"(?<=[a-zA-Z_0-9]):1(:\d+)?: (?=error|warning|note|undefine
 OURS = re.compile(
     rf"{re.escape(OWN)}|In function|some warnings being treated|in expansion of macro 'ROVERCHECK"
 )
+WARNING = re.compile(r"\bwarning: ")
 STRICT = ("implicit-function-declaration", "int-conversion", "incompatible-pointer-types")
 PLAIN = ("-fdiagnostics-color=never", "-fmessage-length=0", "-fPIC", "-g", "-O1")
 
@@ -34,11 +35,12 @@ def compiler() -> str | None:
     )
 
 
-def built(path: Path, c: CMap, folder: Path) -> tuple[Path, str]:
+def built(path: Path, c: CMap, folder: Path, more: Sequence[str] = ()) -> tuple[Path, str]:
     """The shared object, made in ``folder``, and what the compiler warned of.
 
-    ``path`` is a C file, a folder of them, or a shared object.  Raises ``ImplementationError`` with the words
-    of the compiler.
+    ``path`` is a C file, a folder of them, or a shared object; ``more`` are flags of its sources.
+
+    Raises ``ImplementationError`` with the words of the compiler.
     """
     cc = compiler()
     if cc is None:
@@ -54,7 +56,7 @@ def built(path: Path, c: CMap, folder: Path) -> tuple[Path, str]:
     strict = ["-std=gnu11", *(f"-Werror={name}" for name in STRICT)]
     _compile([*common, *strict, "-c", str(source), "-o", str(middle), *c.flags], c.file)
     link = ["-Wall", "-shared", "-o", str(made), str(middle), *code, *_linking(path)]
-    return made, _compile([*common, *link, *c.flags, "-lm"], path)
+    return made, _compile([*common, *link, *c.flags, *more, "-lm"], path)
 
 
 def is_library(path: Path) -> bool:
@@ -116,16 +118,27 @@ def _compile(command: Sequence[str], what: Path) -> str:
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise ImplementationError(f"{what}: the compiler cannot be run: {error}.") from None
-    said = _short(done.stderr)
     if done.returncode:
+        said = _short(done.stderr, MOST_LINES)
         raise ImplementationError(f"{what} cannot be compiled. {Path(command[0]).name} says:\n{said}")
-    return said
+    return _short(done.stderr)
 
 
-def _short(text: str) -> str:
-    """The beginning of what a compiler says, each fault once, and nothing of the lines that we wrote."""
+def in_one_line(said: str) -> str:
+    """How often a compiler warns, and of what first; the lines after it are all that it says."""
+    warnings = [line for line in said.splitlines() if WARNING.search(line)]
+    name = Path(compiler() or COMPILERS[0]).name
+    if not warnings:
+        return f"{name} says more with -v\n{said}"
+    first = re.sub(r"^(?:[^:\s]*/)*", "", warnings[0])
+    many = f"{len(warnings)} warnings, first: {first}" if len(warnings) > 1 else f"1 warning: {first}"
+    return f"{name}: {many}; all that it says with -v\n{said}"
+
+
+def _short(text: str, most: int | None = None) -> str:
+    """What a compiler says, or the beginning: each fault once, and nothing of the lines that we wrote."""
     lines = [COLUMN.sub(": ", line) for line in text.splitlines() if line.strip()]
     again = {n for n, line in enumerate(lines) if ": error: " in line and line in lines[:n]}
     theirs = [line for n, line in enumerate(lines) if n not in again and not OURS.search(line)] or lines
-    more = len(theirs) - MOST_LINES
-    return "\n".join([*theirs[:MOST_LINES], *([f"... and {more} more lines"] if more > 0 else [])])
+    more = len(theirs) - most if most else 0
+    return "\n".join([*theirs[:most], *([f"... and {more} more lines"] if more > 0 else [])])

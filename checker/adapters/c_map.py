@@ -1,13 +1,15 @@
 """The mapping file of a C supervisor: which functions to call, and where the signals are held."""
 
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rovercheck.checker.adapters.c_units import conversion, known_units
 from rovercheck.checker.adapters.implementation import ImplementationError
-from rovercheck.spec_model.lang.domain import Enum
+from rovercheck.spec_model.abstraction.stamps import NOW
+from rovercheck.spec_model.lang.domain import Enum, Num
 from rovercheck.spec_model.lang.errors import did_you_mean
 
 if TYPE_CHECKING:
@@ -15,7 +17,9 @@ if TYPE_CHECKING:
     from rovercheck.spec_model.abstraction.signals import BoardSignal
 
 ROUNDINGS = ("nearest", "floor", "truncate")
-PLACE_KEYS = ("at", "scale", "offset", "rounding", "values")
+PLACE_KEYS = ("at", "scale", "offset", "unit", "rounding", "values", "not_yet", "mask", "counter", "wraps")
+ONLY = {"outputs": ("not_yet",), "inputs": ("counter", "wraps")}
+"""Keys that have a meaning in one section only."""
 LISTS = ("sources", "header", "include", "flags", "initialize", "step", "terminate")
 KEYS = (*LISTS, "declarations", "constants", "inputs", "outputs")
 
@@ -24,17 +28,27 @@ KEYS = (*LISTS, "declarations", "constants", "inputs", "outputs")
 class CPlace:
     """Where a signal is held: an expression of C, which for an input can be assigned to.
 
-    The signal is what is held times ``scale`` plus ``offset``.  ``values`` gives the C constant of each
-    number of an enumeration; ``rounding`` says what becomes of an input that the integer type cannot hold.
+    The signal is what is held times ``scale`` plus ``offset``, each a number or a constant of the code, in
+    ``unit``.  ``values`` gives the C constants of each number of an enumeration, of which an input is given
+    the first; ``not_yet`` those that are no value yet; ``mask`` the bits that hold a truth value.
+    ``rounding`` says what becomes of an input that the integer type cannot hold, ``wraps`` that it is held
+    modulo what the type holds.  ``counts``: what is held counts the new stamps.
     """
 
     signal: str
     at: str
-    scale: float = 1.0
-    offset: float = 0.0
+    scale: float | str = 1.0
+    offset: float | str = 0.0
     rounding: str = ""
-    values: Mapping[int, str] = field(default_factory=dict)
+    values: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+    not_yet: tuple[str, ...] = ()
+    mask: str = ""
+    counts: bool = False
+    wraps: bool = False
     boolean: bool = False
+    factor: float = 1.0
+    shift: float = 0.0
+    """How many units of the signal one of ``unit`` is, and what 0 of it is."""
 
 
 @dataclass(frozen=True)
@@ -96,17 +110,47 @@ class _Reader:
             if name not in signals:
                 hint = did_you_mean(name, signals)
                 raise self._wrong(f"[{section}] {name}: {board} has no {section[:-1]} of this name. {hint}")
-        return tuple(self._place(f"[{section}] {name}", signals[name], at) for name, at in table.items())
+        return tuple(
+            place
+            for name, at in table.items()
+            for place in self._all_places(section, f"[{section}] {name}", signals[name], at)
+        )
 
-    def _place(self, where: str, signal: "BoardSignal", written: object) -> CPlace:
+    def _all_places(
+        self, section: str, where: str, signal: "BoardSignal", written: object
+    ) -> Iterator[CPlace]:
+        """The place of a signal; of a stamp also the counter that goes with it."""
         table: Mapping[str, Any] = (
             {"at": written} if isinstance(written, str) else self._is_table(where, written)
         )
         self._known(where, table, PLACE_KEYS)
-        if "values" in table and len(table) > 2:
-            raise self._wrong(f"{where}: values says it all; leave scale, offset and rounding out")
+        for other, keys in ONLY.items():
+            if wrong := [key for key in keys if key in table and section != other]:
+                raise self._wrong(f"{where}: {wrong[0]} has a meaning in [{other}] only")
+        if "counter" in table:
+            if not signal.stamp or signal.name == NOW:
+                raise self._wrong(
+                    f"{where}: counter counts the new stamps of a source; {signal.name} is none"
+                )
+            yield CPlace(signal.name, self._expression(where, table["counter"]), counts=True)
+        if "at" in table or "counter" not in table:
+            yield self._place(where, signal, {k: v for k, v in table.items() if k != "counter"})
+
+    def _place(self, where: str, signal: "BoardSignal", table: Mapping[str, Any]) -> CPlace:
+        boolean = signal.domain.sort.__class__.__name__ == "Bool"
+        if "values" in table and table.keys() - {"at", "values", "not_yet"}:
+            raise self._wrong(
+                f"{where}: values says it all; leave scale, offset, unit, mask and rounding out"
+            )
+        if "mask" in table and (not boolean or table.keys() - {"at", "mask"}):
+            raise self._wrong(f"{where}: mask is of a truth value alone; write at and mask")
+        if "wraps" in table and (not signal.stamp or table["wraps"] is not True):
+            raise self._wrong(
+                f"{where}: wraps = true is of a time stamp; {signal.name} is none, or leave it out"
+            )
         if table.get("rounding", "nearest") not in ROUNDINGS:
             raise self._wrong(f"{where}: rounding is one of {', '.join(ROUNDINGS)}")
+        factor, shift = self._unit(where, signal, table.get("unit"))
         return CPlace(
             signal=signal.name,
             at=self._expression(where, table.get("at")),
@@ -114,20 +158,48 @@ class _Reader:
             offset=self._number(where, "offset", table.get("offset", 0.0)),
             rounding=table.get("rounding", ""),
             values=self._values(where, signal, table.get("values", {})),
-            boolean=signal.domain.sort.__class__.__name__ == "Bool",
+            not_yet=self._constants(f"{where}: not_yet", table.get("not_yet", [])),
+            mask=self._constant(where, table["mask"]) if "mask" in table else "",
+            wraps="wraps" in table,
+            boolean=boolean,
+            factor=factor,
+            shift=shift,
         )
 
-    def _values(self, where: str, signal: "BoardSignal", written: object) -> dict[int, str]:
+    def _unit(self, where: str, signal: "BoardSignal", written: object) -> tuple[float, float]:
         sort = signal.domain.sort
-        members = dict(sort.members) if isinstance(sort, Enum) else {"false": 0, "true": 1}
-        found: dict[int, str] = {}
+        if written is None:
+            return 1.0, 0.0
+        own = str(sort.unit) if isinstance(sort, Num) else ""
+        if not isinstance(written, str) or (found := conversion(written, own)) is None:
+            known = known_units(own)
+            advice = f"; write one of {', '.join(known)}" if known else ", which has no unit; leave it out"
+            raise self._wrong(f"{where}: unit = {written!r} does not become {own or signal.name}{advice}")
+        return found
+
+    def _values(self, where: str, signal: "BoardSignal", written: object) -> dict[int, tuple[str, ...]]:
+        sort = signal.domain.sort
+        if isinstance(sort, Enum):
+            members = dict(sort.members)
+        elif isinstance(sort, Num):
+            members = {str(n): n for n in signal.domain.values} if signal.whole and written else {}
+        else:
+            members = {"false": 0, "true": 1}
+        found: dict[int, tuple[str, ...]] = {}
         for name, value in self._is_table(f"{where}: values", written).items():
             if name not in members:
                 raise self._wrong(
                     f"{where}: values: {signal.name} has no {name!r}. {did_you_mean(name, members)}"
                 )
-            found[members[name]] = self._constant(f"{where}: values: {name}", value)
+            found[members[name]] = self._constants(f"{where}: values: {name}", value)
+            if not found[members[name]]:
+                raise self._wrong(f"{where}: values: {name} = [] holds no constant; write one at least")
         return found
+
+    def _constants(self, where: str, written: object) -> tuple[str, ...]:
+        """One constant of the code, or several in brackets."""
+        each = written if isinstance(written, list) else [written]
+        return tuple(self._constant(where, one) for one in each)
 
     def _texts(self, key: str) -> tuple[str, ...]:
         written = self.found.get(key, [])
@@ -163,7 +235,10 @@ class _Reader:
             return str(int(written))
         return str(written) if isinstance(written, int | float) else self._expression(where, written)
 
-    def _number(self, where: str, key: str, written: object) -> float:
+    def _number(self, where: str, key: str, written: object) -> float | str:
+        """A number, or a constant of the code that stands for one."""
+        if isinstance(written, str):
+            return self._expression(f"{where}: {key}", written)
         if (
             isinstance(written, bool)
             or not isinstance(written, int | float)

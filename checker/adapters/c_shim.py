@@ -35,9 +35,15 @@ def shim(c: CMap) -> str:
     return "\n".join(_lines(c)) + "\n"
 
 
-def constants(c: CMap) -> list[tuple[CPlace, int, str]]:
-    """Every constant of an enumeration: its place, the signal's number, its C expression."""
-    return [(place, n, value) for place in (*c.inputs, *c.outputs) for n, value in place.values.items()]
+def constants(c: CMap) -> list[tuple[CPlace, str]]:
+    """Every expression whose value the compiler is asked for, place by place: ``asked`` of each."""
+    return [(place, text) for place in (*c.inputs, *c.outputs) for text in asked(place)]
+
+
+def asked(place: CPlace) -> list[str]:
+    """Scale and offset where they are no numbers, then the constants of values, then those of no value."""
+    named = [text for text in (place.scale, place.offset) if isinstance(text, str)]
+    return [*named, *(text for texts in place.values.values() for text in texts), *place.not_yet]
 
 
 def _lines(c: CMap) -> Iterator[str]:
@@ -57,11 +63,12 @@ def _lines(c: CMap) -> Iterator[str]:
     for at, value in c.constants.items():
         yield from (_at(c, f"[constants] {at}"), f"({at}) = ({value});")
     for number, place in enumerate(c.inputs):
-        yield from (_at(c, f"[inputs] {place.signal}"), f"ROVERCHECK_SET({place.at}, {number});")
+        yield from (_at(c, f"[inputs] {place.signal}"), _assigned(place, number))
     for call in c.step:
         yield from (_at(c, "step"), _statement(call))
     for number, place in enumerate(c.outputs):
-        yield from (_at(c, f"[outputs] {place.signal}"), f"rovercheck_out[{number}] = (double)({place.at});")
+        held = f"(({place.at}) & ({place.mask})) != 0" if place.mask else place.at
+        yield from (_at(c, f"[outputs] {place.signal}"), f"rovercheck_out[{number}] = (double)({held});")
     yield "return 0; }"
 
 
@@ -75,10 +82,22 @@ def _types(c: CMap, what: str, places: tuple[CPlace, ...]) -> Iterator[str]:
     yield 'default: return ""; } }'
 
 
+def _assigned(place: CPlace, number: int) -> str:
+    """What gives an input to the supervisor."""
+    value = f"rovercheck_in[{number}]"
+    if place.mask:
+        return (
+            f"{place.at} = {value} != 0 ? (({place.at}) | ({place.mask})) : (({place.at}) & ~({place.mask}));"
+        )
+    if place.wraps or place.counts:
+        return f"{place.at} = (unsigned long long){value};"
+    return f"ROVERCHECK_SET({place.at}, {number});"
+
+
 def _constants(c: CMap) -> Iterator[str]:
     yield "double rovercheck_constant(int number) { switch (number) {"
-    for number, (place, _, value) in enumerate(constants(c)):
-        yield from (_at(c, f"values of {place.signal}"), f"case {number}: return (double)({value});")
+    for number, (place, value) in enumerate(constants(c)):
+        yield from (_at(c, f"constants of {place.signal}"), f"case {number}: return (double)({value});")
     yield "default: return 0; } }"
 
 

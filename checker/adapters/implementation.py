@@ -10,6 +10,10 @@ Values = Mapping[str, Value]
 """Concrete values by the names that ``spec_model.abstraction`` gives the signals of a board."""
 
 
+KEPT = "kept:"
+"""Before the name of an input that a place could not hold and was not given, in answers to odd inputs."""
+
+
 class ImplementationError(Exception):
     """The implementation under test could not be run: it is missing something, crashed, hung or spoke
     garbage.
@@ -57,6 +61,9 @@ def run(implementation: Implementation, inputs: Sequence[Values]) -> Sequence[Va
 
 
 def notes(implementation: Implementation) -> Sequence[str]:
-    """What a person should know about how it is run: warnings of a compiler, inputs that it does not read."""
+    """What a person should know about how it is run: warnings of a compiler, inputs that it does not read.
+
+    Of several lines the first says it in short, and the others at length.
+    """
     found: Sequence[str] = getattr(implementation, "notes", ())
     return found

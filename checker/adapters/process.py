@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rovercheck.checker.adapters import AdapterLimits, launch, lines
 from rovercheck.checker.adapters.channel import BrokenChannel, Channel
-from rovercheck.checker.adapters.implementation import ImplementationError, Value, Values
+from rovercheck.checker.adapters.implementation import KEPT, ImplementationError, Value, Values
 from rovercheck.spec_model.lang.errors import did_you_mean
 
 RESET = lines.encoded({"reset": True})
@@ -116,7 +116,7 @@ class Process:
 def check_names(found: Mapping[str, Value], names: Collection[str]) -> None:
     """Raise ``ReportedFault`` unless these are outputs of the board: no others can be compared."""
     for name in found:
-        if name not in names:
+        if name not in names and not name.startswith(KEPT):
             raise ReportedFault(
                 f"the board has no output {name!r}, which was answered. {did_you_mean(name, names)}"
             )
@@ -139,7 +139,7 @@ def ours(module: str, options: Mapping[str, object], limits: AdapterLimits) -> C
     # -P: no module is taken from the folder we happen to be in before those of the path.
     return Channel(
         [sys.executable, "-P", "-c", MAIN, order],
-        {**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
+        {**os.environ, **limits.environment, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
     )
 
 

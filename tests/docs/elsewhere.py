@@ -32,6 +32,7 @@ CHECKED = "rovercheck check --model heater.py"
 ACCEPTS = 'rovercheck accept HEAT-3 --model heater.py --because "The valve comes." --owner "A. Rossi"'
 
 COMMANDS = {
+    "rovercheck robustness --system board1 --impl c:FOLDER": CROSSCHECKS,
     "mkdir tank": INSTALLS,
     "cd tank": INSTALLS,
     "python3 -m venv .venv": INSTALLS,

@@ -14,6 +14,7 @@ from rovercheck.checker.commands.shared.options import (
     modelling,
     quietly,
 )
+from rovercheck.checker.commands.shared.silence import say_more
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,14 @@ class ComparisonOptions:
     show_default=True,
     metavar="N",
     help="Runs it may fail to survive before no more are tried.",
+)
+@click.option(
+    "--verbose",
+    "-v",
+    is_flag=True,
+    expose_value=False,
+    callback=say_more,
+    help="Also all that a compiler warns of.",
 )
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(

@@ -9,6 +9,7 @@ from rovercheck.checker.board_tests.rows import in_rows
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
+from rovercheck.checker.commands.shared.silence import talkative
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
 from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.coverage import taken
@@ -61,7 +62,7 @@ def often(deviation: Deviation, result: CompareResult) -> str:
 def report(of: CrosscheckReport) -> str:
     """The whole report of one board."""
     result = of.result
-    lines = [*map(_wrapped, result.notes)]
+    lines = [_wrapped(note if talkative() else note.partition("\n")[0]) for note in result.notes]
     for number, found in enumerate(shown(result), 1):
         told = _mismatch(number, found, of) if isinstance(found, StepMismatch) else _failure(number, found)
         lines += ["", *told, *_test(of.files, number)]

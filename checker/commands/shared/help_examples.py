@@ -48,6 +48,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "init": ("rovercheck init heater", "rovercheck check --model heater/heater.py"),
     "list": ("rovercheck list properties PB1-15 --english", "rovercheck list systems"),
+    "map": (
+        "rovercheck map init examples/board1_c --system board1 -o map.toml",
+        "rovercheck map init firmware --model heater.py",
+    ),
     "mutate": (
         "rovercheck mutate --system relay",
         "rovercheck mutate --model heater.py --sample 50 --seed 1 --json",
@@ -58,6 +62,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "reports": ("rovercheck reports", "rovercheck reports --stale"),
     "requirements": ("rovercheck requirements", "rovercheck requirements --check --json"),
+    "robustness": (
+        "rovercheck robustness --system board1 --impl c:examples/board1_c",
+        "rovercheck robustness --model heater.py --impl c:firmware -o findings",
+    ),
     "simulate": ("rovercheck simulate examples/scenarios/link_loss.toml --log steps",),
     "generate-tests": (
         "rovercheck generate-tests --kept --system board1",

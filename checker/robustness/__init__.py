@@ -1,0 +1,1 @@
+"""Gives an implementation what no model admits, and sees whether what must hold still holds."""
