@@ -3,8 +3,9 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
+from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence, Recording
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.search import SECONDS, ExplainingCause, PartDiagnosis, diagnosed
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction import Board
