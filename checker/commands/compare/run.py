@@ -113,7 +113,7 @@ def _causes(
     """The deviations by cause: of the runs that deviate, also where parts conform."""
     with ProgressLine() as line:
         recordings = [run.recording for run in deviating]
-        diagnosis = diagnose_board(board, recordings, seconds, line.show)
+        diagnosis = diagnose_board(board, recordings, seconds, line.show, deciding=False)
     return by_cause(result.deviations, diagnosis.parts)
 
 
