@@ -22,8 +22,8 @@ Explained = Mapping[DeviationScope, Counter[int | None]]
 class DeviationCause:
     """Deviations of one cause, each in no other one.
 
-    ``change`` explains them; ``None``: nothing does, and what they have in common is the part, and the move
-    of its charts or the output with its values.  ``alone``: whether the changes found in the part explain
+    ``change`` explains them; ``None``: nothing does, and what they have in common are the outputs, and the
+    moves of the charts.  ``alone``: whether the changes found in the part explain
     everything that it does otherwise.
     """
 
@@ -103,23 +103,17 @@ def _most(one: Deviation, explained: Explained) -> int | None:
     return rows.most_common(1)[0][0] if rows else None
 
 
-def alike(deviations: Sequence[Deviation]) -> Iterator[list[Deviation]]:
-    """Groups of deviations of a part in which each has a move of the charts in common with another.
+def alike(deviations: Sequence[Deviation]) -> list[list[Deviation]]:
+    """Groups of deviations in which the same outputs differ after the same moves of the charts of a part.
 
-    What no chart decides is alike where output and values are.
+    What no chart decides stays by itself.
     """
-    groups: list[tuple[set[object], list[Deviation]]] = []
+    groups: dict[tuple[object, ...], list[Deviation]] = {}
     for one in deviations:
         scope = one.scope
-        marks: set[object] = {(scope.part, scope.kind, mark) for mark in scope.charts or (scope.differences,)}
-        joined, rest = [one], []
-        for seen, group in groups:
-            if seen & marks:
-                joined, marks = group + joined, seen | marks
-            else:
-                rest.append((seen, group))
-        groups = [*rest, (marks, joined)]
-    yield from (group for _, group in groups)
+        key = (scope.part, scope.kind, scope.outputs, scope.charts or scope.differences)
+        groups.setdefault(key, []).append(one)
+    return list(groups.values())
 
 
 __all__ = ["DeviationCause", "alike", "by_cause"]

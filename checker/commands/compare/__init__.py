@@ -31,7 +31,7 @@ class ComparisonOptions:
     known: Path | None = None
     write_known: Path | None = None
     causes: bool = False
-    seconds: float = 20.0
+    seconds: float = 60.0
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")
@@ -65,7 +65,7 @@ class ComparisonOptions:
 @click.option(
     "--seconds",
     type=click.FloatRange(min=0, min_open=True),
-    default=20.0,
+    default=60.0,
     show_default=True,
     metavar="S",
     help="With --causes: how long the causes of a part are looked for.",
