@@ -22,10 +22,9 @@ from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.conformance.cones import LogCone, parts_of
 from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
-from rovercheck.checker.conformance.recording import Cells, LogBlock
+from rovercheck.checker.conformance.recording import Cells, LogBlock, Recording
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.decide import RunSearch
-from rovercheck.checker.diagnosis.evidence import Recording
 from rovercheck.checker.diagnosis.hypotheses import (
     delay_changes,
     mutant_changes,

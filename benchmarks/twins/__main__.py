@@ -3,9 +3,9 @@
     python -m benchmarks.twins [FIRMWARE...] [--stage STAGE]... [--examples N] [--logs N] [--seconds S]
 
 Stages: ``base`` (does each firmware conform before anything is planted), ``twin`` (which differences are
-told), ``further`` (are faults on top of what is known reported as new), ``logs`` (what is said of logs of the
-twins), and ``alone``, which runs every difference by itself and keeps where it shows.  Without one: all but
-``alone``.
+told), ``causes`` (the same, with deviations merged by cause), ``further`` (are faults on top of what is known
+reported as new), ``logs`` (what is said of logs of the twins), and ``alone``, which runs every difference by
+itself and keeps where it shows.  Without one: all but ``alone``.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -22,6 +22,7 @@ Stage = Callable[[Firmware, Path, TwinEffort], Iterator[str]]
 STAGES: Mapping[str, Stage] = {
     "base": measure.base,
     "twin": measure.twin,
+    "causes": measure.causes,
     "further": measure.further,
     "logs": measure.folder_of_logs,
     "alone": lambda firmware, folder, effort: measure.alone(firmware, effort.examples),

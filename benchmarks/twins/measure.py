@@ -59,11 +59,11 @@ def base(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
     yield from (f"  {group}" for group in report.groups)
 
 
-def twin(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
+def twin(firmware: Firmware, folder: Path, effort: TwinEffort, *more: str) -> Iterator[str]:
     """Which of the planted differences are told, each in a group of its own, and what else is told."""
     began = monotonic()
     address = firmware.written(folder / "twin", firmware.differences)
-    report = told(firmware, address, folder, effort.examples)
+    report = told(firmware, address, folder, effort.examples, *more)
     shown = shown_alone(firmware)
     verdict = judged(firmware.board, firmware.differences, shown, report.groups)
     yield (
@@ -80,6 +80,18 @@ def twin(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
     yield from (f"  again    {report.groups[n]}" for n in verdict.again)
     yield from (f"  several  {report.groups[n]}" for n in verdict.mixed)
     yield from (f"  FALSE    {report.groups[n]}" for n in verdict.false)
+    named = [group for group in report.groups if group.change]
+    right = {
+        one.id: [n for n, group in enumerate(named) if names(one, group.change)]
+        for one in firmware.differences
+    }
+    if named:
+        yield f"causes: {len(named)} groups have a change, {len(matched(right))} of them the one planted"
+
+
+def causes(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
+    """The same with the deviations merged by cause."""
+    yield from twin(firmware, folder, effort, "--causes", "--seconds", str(effort.seconds))
 
 
 def _tags(one: Planted) -> str:

@@ -6,8 +6,8 @@ Read with tolerance: a mismatch without a part belongs to the part that writes i
 import json
 import subprocess
 import sys
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +28,8 @@ class ToldGroup:
     moves: tuple[str, ...] = ()
     known: str = ""
     runs: int = 1
+    change: Mapping[str, Any] = field(default_factory=dict)
+    """With ``--causes``: the change of the charts that is named; empty where none is."""
 
     @property
     def outputs(self) -> frozenset[str]:
@@ -78,11 +80,27 @@ def told(firmware: Firmware, address: str, folder: Path, examples: int, *more: s
     result = document["results"][0]
     return ToldComparison(
         done.returncode,
-        tuple(_group(firmware.board, row) for row in result["mismatches"]),
+        tuple(_groups(firmware.board, result)),
         "; ".join(row["message"] for row in result["failures"]),
         tuple(f"{row['part']}: {row['because']}" for row in result.get("undecided", ())),
         tuple(row["id"] for row in result.get("known", ()) if "gone" in json.dumps(row)),
     )
+
+
+def _groups(board: Board, result: Mapping[str, Any]) -> Iterator[ToldGroup]:
+    """A group for each deviation, or for each cause where causes were asked for."""
+    told = {row["id"]: _group(board, row) for row in result["mismatches"]}
+    if not result["causes"]:
+        yield from told.values()
+    for cause in result["causes"]:
+        groups = [told[id] for id in cause["deviations"]]
+        yield replace(
+            groups[0],
+            part=" and ".join(dict.fromkeys(g.part for g in groups)),
+            differences=tuple(dict.fromkeys(d for g in groups for d in g.differences)),
+            moves=(cause["says"],) if cause["says"] else groups[0].moves,
+            change=cause["change"] or {},
+        )
 
 
 def _group(board: Board, row: Mapping[str, Any]) -> ToldGroup:

@@ -12,7 +12,7 @@ from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, Grouping, scope_of
 from rovercheck.checker.conformance.follower import Behaviour, BoardFollower
 from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
-from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
+from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction import Board, BoardSignal
 from rovercheck.spec_model.lang.domain import Bool, Enum, exact
@@ -34,6 +34,11 @@ class RecordedRun:
     def block(self) -> LogBlock:
         """The run as rows of a recording, for whatever follows recordings; the line of a row is its step."""
         return recorded_block(self.board, [step.inputs for step in self.steps], self.outputs)
+
+    @property
+    def recording(self) -> Recording:
+        """The run for whatever diagnoses recordings."""
+        return Recording(self.origin, frozenset(self.block.values), True, lambda: [self.block])
 
     def up_to(self, tick: int) -> "RecordedRun":
         """Its first steps."""

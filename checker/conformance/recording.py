@@ -1,6 +1,6 @@
 """Rows of a recorded run, whoever recorded it: a log, or an implementation beside the charts."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -27,3 +27,18 @@ class LogBlock:
 
     def __len__(self) -> int:
         return len(self.lines)
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A recorded run of a board, whoever recorded it.
+
+    ``signals``: what it holds, inputs and outputs, by name.  ``blocks`` gives its rows from the first, each
+    time that it is called.  ``tolerance``: how far an output may lie from what is required.
+    """
+
+    name: str
+    signals: frozenset[str]
+    from_power_up: bool
+    blocks: Callable[[], Iterable[LogBlock]]
+    tolerance: Mapping[str, float] = field(default_factory=dict)

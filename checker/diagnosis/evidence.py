@@ -1,6 +1,6 @@
 """What recordings say of one part of a board: its rows, and the cases in which it deviates."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rovercheck.checker.conformance.cones import ConeGroup, LogCone, cone_groups
@@ -8,28 +8,13 @@ from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.follower import Behaviour, BoardFollower
 from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.program import Known
-from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
+from rovercheck.checker.conformance.recording import Cells, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
 from rovercheck.spec_model.abstraction import Board
 
 Options = dict[str, dict[int, tuple[Raw | None, ...]]]
 """The values that an input may have had, by its name and the row."""
-
-
-@dataclass(frozen=True)
-class Recording:
-    """A recorded run of a board, whoever recorded it.
-
-    ``signals``: what it holds, inputs and outputs, by name.  ``blocks`` gives its rows from the first, each
-    time that it is called.  ``tolerance``: how far an output may lie from what is required.
-    """
-
-    name: str
-    signals: frozenset[str]
-    from_power_up: bool
-    blocks: Callable[[], Iterable[LogBlock]]
-    tolerance: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -197,6 +182,5 @@ def inputs_of(cone: LogCone, run: DecodedRun) -> list[Known]:
 
 
 __all__ = [
-    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "Recording",
-    "inputs_of", "logged_of",
+    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "inputs_of", "logged_of",
 ]  # fmt: skip

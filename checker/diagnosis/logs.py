@@ -5,8 +5,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-from rovercheck.checker.conformance.recording import LogBlock
-from rovercheck.checker.diagnosis.evidence import Recording
+from rovercheck.checker.conformance.recording import LogBlock, Recording
 from rovercheck.checker.logs.errors import LogError
 from rovercheck.checker.logs.log import open_log
 from rovercheck.checker.logs.mapping import ColumnMap

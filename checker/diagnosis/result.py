@@ -3,8 +3,9 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
+from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence, Recording
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.search import SECONDS, ExplainingCause, PartDiagnosis, diagnosed
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction import Board
@@ -71,10 +72,12 @@ def diagnose_board(
     runs: Iterable[Recording],
     seconds: float = SECONDS,
     progress: Callable[[str], None] = lambda _: None,
+    deciding: bool = True,
 ) -> BoardDiagnosis:
     """The causes of what recorded runs of a board do otherwise than its charts.
 
-    ``seconds`` are those for each part.  Raises what reading the blocks of a run raises.
+    ``seconds`` are those for each part; ``deciding``: whether runs are looked for that would tell causes
+    apart.  Raises what reading the blocks of a run raises.
     """
     collector, names = EvidenceCollector(board), list[str]()
     for run in runs:
@@ -92,7 +95,7 @@ def diagnose_board(
         same.setdefault(part.name, []).append(diagnosed(part, seconds))
     for name, diagnoses in same.items():
         progress(f"telling causes apart in {name}")
-        found.parts += [_told(name, group) for group in _together(diagnoses)]
+        found.parts += [_told(name, group, deciding) for group in _together(diagnoses)]
     return found
 
 
@@ -125,13 +128,13 @@ def _explains(cause: ExplainingCause, other: PartDiagnosis) -> bool:
     return same and TrialBench(evidence).rejected(cone) is None
 
 
-def _told(name: str, group: Sequence[PartDiagnosis]) -> DiagnosedPart:
+def _told(name: str, group: Sequence[PartDiagnosis], deciding: bool) -> DiagnosedPart:
     first = group[0]
     runs = tuple(run.run.name for one in group for run in one.evidence.deviating)
     cause, others = (first.causes[0], first.causes[1:]) if first.causes else (None, [])
     rivals: list[RivalCause] = []
     prediction = None
-    if cause is not None:
+    if cause is not None and deciding:
         for rival in others[:MOST_RIVALS]:
             rivals.append(RivalCause(rival, RunSearch(first.evidence, cause.cone, rival.cone).found()))
         seen = frozenset(_seen(group))

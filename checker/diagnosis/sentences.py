@@ -15,6 +15,11 @@ def behaves(cause: ExplainingCause) -> str:
     return f"{first.chart} behaves {' and '.join(map(like, cause.changes))}"
 
 
+def behaves_like(change: ChartChange) -> str:
+    """What a part is like by one change."""
+    return f"{change.chart} behaves {like(change)}"
+
+
 def like(change: ChartChange) -> str:
     """One change, as what something behaves like."""
     if change.kind == "interpretation":
@@ -48,4 +53,4 @@ def inputs_told(run: DecidingRun) -> str:
     return f"from power-up {', then '.join(parts)}"
 
 
-__all__ = ["behaves", "explained", "inputs_told", "like"]
+__all__ = ["behaves", "behaves_like", "explained", "inputs_told", "like"]

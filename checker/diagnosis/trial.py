@@ -9,7 +9,7 @@ from rovercheck.checker.conformance.estimator import StateEstimator
 from rovercheck.checker.conformance.program import BeliefOutcome, Known, NeededInputs, Step
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
-from rovercheck.checker.diagnosis.evidence import PartEvidence, inputs_of, logged_of
+from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence, inputs_of, logged_of
 
 MOST_STATES = 64
 """States that are followed side by side before the tracker takes over."""
@@ -80,6 +80,10 @@ class TrialBench:
                     left.append((number, case.first))
             wrong += len(bad - within)
         return Trial(explained, cases, wrong, tuple(left))
+
+    def wrong_rows(self, cone: LogCone, run: DecodedRun) -> Iterator[int]:
+        """Every row of a run that a changed part gets wrong."""
+        return self._tracked(cone, next(n for n, one in enumerate(self.runs) if one is run), None)
 
     def goes_further(self, at: tuple[int, int]) -> bool:
         """Whether a change that fails there has explained the first deviation of that run."""

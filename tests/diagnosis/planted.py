@@ -5,8 +5,8 @@ from functools import cache
 from random import Random
 
 from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
-from rovercheck.checker.conformance.recording import LogBlock, Raw
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector, Recording
+from rovercheck.checker.conformance.recording import LogBlock, Raw, Recording
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
 from rovercheck.spec_model.abstraction import Board, Value, boards
 from rovercheck.spec_model.lang.chart import Block, Chart, parts

@@ -224,7 +224,7 @@ PROGRAMS = {
     ("docs/compare.md", "from rovercheck.checker.compare import cross_check, effort, quick_check"): "imports",
     (
         "docs/diagnose.md",
-        "from rovercheck.checker.diagnosis.evidence import Recording",
+        "from rovercheck.checker.conformance.recording import Recording",
     ): "imports",
     ("docs/models.md", "from rovercheck import ("): "model",
 }

@@ -31,6 +31,8 @@ class ComparisonOptions:
     failures: int
     known: Path | None = None
     write_known: Path | None = None
+    causes: bool = False
+    seconds: float = 60.0
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")
@@ -68,6 +70,15 @@ class ComparisonOptions:
     callback=say_more,
     help="Also all that a compiler warns of.",
 )
+@click.option("--causes", is_flag=True, help="Merge the deviations by the change of the charts behind them.")
+@click.option(
+    "--seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    default=60.0,
+    show_default=True,
+    metavar="S",
+    help="With --causes: how long the causes of a part are looked for.",
+)
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(
     "--output",
@@ -101,5 +112,6 @@ def compare(options: ComparisonOptions, as_json: bool, output: Path | None, char
         charts.model,
         options.known,
         options.write_known,
+        options.seconds if options.causes else None,
     )
     return run(asked, output, as_json)

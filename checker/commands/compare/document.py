@@ -1,17 +1,21 @@
 """``rovercheck compare --json``: charts against an implementation (``checker/schemas/crosscheck-1.json``)."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Annotated, Literal
 
+from annotated_types import MinLen
 from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.compare.text import CrosscheckReport, shown
+from rovercheck.checker.commands.diagnose.document import ChangeRow, change_row
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.known import KnownRow, known_rows
 from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.result import CompareResult, Failure
 from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
 from rovercheck.checker.conformance.known import FoundWord
+from rovercheck.checker.diagnosis.causes import DeviationCause
+from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.checker.io.document import Count, Ordinal, Text
 from rovercheck.spec_model.abstraction import Value
 
@@ -83,6 +87,20 @@ class MismatchRow(TypedDict):
     """The test that was written for it, if any."""
 
 
+class CauseGroup(TypedDict):
+    """Deviations of one cause, each in no other one."""
+
+    id: str
+    part: str
+    says: str
+    """The change of the charts that explains them, in words; empty where none was found."""
+    change: ChangeRow | None
+    complete: bool
+    """Whether the changes found in the part explain all that it does otherwise."""
+    deviations: Annotated[list[str], MinLen(1)]
+    """Their ids."""
+
+
 class UndecidedRuns(TypedDict):
     """A part of the board that was not wholly decided after a deviation."""
 
@@ -123,6 +141,8 @@ class ComparedRow(TypedDict):
     """The steps in which the implementation was compared: those that it answered."""
     distinct: Count
     mismatches: list[MismatchRow]
+    causes: list[CauseGroup]
+    """The deviations by cause; empty without ``--causes``."""
     failures: list[FailureRow]
     undecided: list[UndecidedRuns]
     known: list[KnownRow]
@@ -170,12 +190,25 @@ def _row(of: CrosscheckReport) -> ComparedRow:
         "compared": result.compared,
         "distinct": len(result.mismatches),
         "mismatches": [_mismatch(m, m.deviation, of) for m in result.mismatches if m.deviation is not None],
+        "causes": [_cause(one, of) for one in of.causes],
         "failures": [_failure(f, _file_of(f, of)) for f in result.failures],
         "undecided": [
             {"part": part, "because": because, "runs": runs}
             for (part, because), runs in result.undecided.items()
         ],
         "known": known_rows(of.judgement),
+    }
+
+
+def _cause(cause: DeviationCause, of: CrosscheckReport) -> CauseGroup:
+    change = cause.change
+    return {
+        "id": cause.id(of.result.board.name),
+        "part": cause.part,
+        "says": "" if change is None else behaves_like(change),
+        "change": None if change is None else change_row(change),
+        "complete": cause.alone,
+        "deviations": [of.judgement.of(one).id for one in cause.deviations],
     }
 
 

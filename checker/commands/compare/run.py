@@ -1,6 +1,6 @@
 """``rovercheck compare``: an implementation and the charts side by side, under the same inputs."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -17,9 +17,12 @@ from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
+from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.variants import of_model, varied
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
+from rovercheck.checker.diagnosis.causes import DeviationCause, by_cause
+from rovercheck.checker.diagnosis.result import diagnose_board
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
@@ -42,6 +45,8 @@ class CrosscheckOptions:
     model: Path | None = None
     known: Path | None = None
     write_known: Path | None = None
+    seconds: float | None = None
+    """How long the causes of a part are looked for; ``None``: not at all."""
 
     @cached_property
     def variant(self) -> Variant:
@@ -65,10 +70,15 @@ def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exi
         address = asked.address or board.supervisor
         if not as_json:
             _announce(asked, board, address, seed)
-        result = _checked(asked, board, address, seed, book.used)
+        deviating: list[RecordedRun] = []
+        keep = deviating.append if asked.seconds is not None else _forgotten
+        result = _checked(asked, board, address, seed, book.used, keep)
         files = _write_tests(result, address, asked.variant, output or Path())
         judgement = _judged(book, result)
-        reports.append(CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used))
+        causes = _causes(board, result, deviating, asked.seconds) if asked.seconds is not None else ()
+        reports.append(
+            CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used, causes)
+        )
         if not as_json:
             out.print(report(reports[-1]), markup=False)
         if result.interrupted:
@@ -91,6 +101,20 @@ def _judged(book: KnownBook, result: CompareResult) -> KnownJudgement:
         return result.complete and shows(result.board, known.scope, result.situations, compared)
 
     return book.judged(result.board.name, result.deviations, shown_by)
+
+
+def _forgotten(run: RecordedRun) -> None:
+    """Without --causes nothing is to be done with a run that deviates."""
+
+
+def _causes(
+    board: Board, result: CompareResult, deviating: Sequence[RecordedRun], seconds: float
+) -> tuple[DeviationCause, ...]:
+    """The deviations by cause: of the runs that deviate, also where parts conform."""
+    with ProgressLine() as line:
+        recordings = [run.recording for run in deviating]
+        diagnosis = diagnose_board(board, recordings, seconds, line.show, deciding=False)
+    return by_cause(result.deviations, diagnosis.parts)
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:
@@ -124,7 +148,14 @@ def _boards(asked: CrosscheckOptions) -> list[Board]:
     return [known[asked.system]]
 
 
-def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int, watched: bool) -> CompareResult:
+def _checked(
+    asked: CrosscheckOptions,
+    board: Board,
+    address: str,
+    seed: int,
+    watched: bool,
+    deviating: Callable[[RecordedRun], None],
+) -> CompareResult:
     if asked.tests is not None and not asked.tests.is_dir():
         raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
     try:
@@ -141,6 +172,7 @@ def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int, wa
                 allowance=asked.allowance,
                 progress=lambda search: line.show(_doing(board, search)),
                 watched=watched,
+                deviating=deviating,
             )
     finally:
         implementation.close()

@@ -19,6 +19,8 @@ from rovercheck.checker.compare.smaller import columns
 from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownJudgement
+from rovercheck.checker.diagnosis.causes import DeviationCause
+from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -38,6 +40,7 @@ class CrosscheckReport:
     judgement: KnownJudgement = field(default_factory=lambda: KnownJudgement({}))
     with_known: bool = False
     """Whether known deviations were named, or are to be written."""
+    causes: Sequence[DeviationCause] = ()
 
     @property
     def differs(self) -> bool:
@@ -50,6 +53,18 @@ class CrosscheckReport:
         """Whether nothing but the known differs in every run that was asked for, and all was decided."""
         result = self.result
         return result.conclusive and not self.differs and not (result.mismatches and result.undecided)
+
+
+def _causes(of: CrosscheckReport) -> Iterator[str]:
+    """The deviations by cause, those of each by their numbers."""
+    numbers = {one.scope: number for number, one in enumerate(of.result.deviations, 1)}
+    if of.causes:
+        yield ""
+        yield f"The deviations have {counted(len(of.causes), 'cause', 'causes')}:"
+    for cause in of.causes:
+        told = ", ".join(str(numbers[one.scope]) for one in cause.deviations)
+        says = behaves_like(cause.change) if cause.change else f"{cause.part or 'the board'}: no change found"
+        yield _wrapped(f"- {says}: {told}", "  ")
 
 
 def often(deviation: Deviation, result: CompareResult) -> str:
@@ -72,6 +87,7 @@ def report(of: CrosscheckReport) -> str:
     if others := result.mismatches[result.small :]:
         for number, one in enumerate(others, result.small + 1):
             lines += ["", *_in_short(number, one, of)]
+    lines += _causes(of)
     return "\n".join([*lines, *([""] if lines else []), *_summary(of)])
 
 

@@ -8,7 +8,7 @@ from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.conformance.mismatch import LogMismatch
-from rovercheck.checker.diagnosis.change import ChangeKind
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange
 from rovercheck.checker.diagnosis.decide import DecidingRun
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, DiagnosedPart
 from rovercheck.checker.diagnosis.search import ExplainingCause
@@ -168,14 +168,15 @@ def _part(part: DiagnosedPart) -> PartRow:
     }
 
 
+def change_row(c: ChartChange) -> ChangeRow:
+    """A change, as a variant holds it."""
+    return {"kind": c.kind, "chart": c.chart, "at": c.at, "old": c.old, "new": c.new, "note": c.note}
+
+
 def _cause(cause: ExplainingCause) -> CauseRow:
-    changes: list[ChangeRow] = [
-        {"kind": c.kind, "chart": c.chart, "at": c.at, "old": c.old, "new": c.new, "note": c.note}
-        for c in cause.changes
-    ]
     return {
         "says": behaves(cause),
-        "changes": changes,
+        "changes": list(map(change_row, cause.changes)),
         "explained": cause.trial.explained,
         "wrong_rows": cause.trial.wrong,
     }
