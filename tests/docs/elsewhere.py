@@ -184,6 +184,10 @@ GIVEN = {
 MADE = "made by the search that the page speaks of, which takes minutes"
 SHOWN = {
     (
+        "docs/firmware.md",
+        "1. ✗ crash in step 1: firmware.c:43: index 8 out of bounds for type 'uint8_t [8]'",
+    ): "tests/robustness plants this fault, and looks at what is told",
+    (
         "docs/labels.md",
         "wrong.py:10:61: Oven, transition 1 of Off: `dor_open` is unknown here. Did you mean 'door_open'?",
     ): "tests/model_files/test_statements.py compares what is told",

@@ -21,7 +21,7 @@ static double heading(double yaw)
   if (!(yaw >= -720.0 && yaw <= 720.0)) {
     return 0.0;
   }
-  while (yaw > 180.0) {
+  while (yaw >= 180.0) {
     yaw -= 360.0;
   }
   while (yaw < -180.0) {
