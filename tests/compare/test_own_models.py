@@ -91,6 +91,29 @@ def test_each_difference_is_told_once(firmware: Path, name: str, outputs: list[s
     assert told == outputs
 
 
+@pytest.mark.parametrize(
+    ("is_", "other"),
+    [
+        ("warm < 18", "warm < 17"),
+        ("warm < 18", "warm < 16"),
+        ("warm < 18", "warm < 19"),
+        ("warm < 18 and not door", "warm < 18"),
+        ("warm > self.limit", "warm > self.limit - 1"),
+        ("warm > self.limit", "warm > self.limit + 1"),
+        ("door or warm > self.limit", "warm > self.limit"),
+        ("self.steps >= 500", "self.steps >= 501"),
+        ("self.steps >= self.rest", "self.steps >= self.rest + 1"),
+    ],
+)
+def test_every_limit_is_met_where_it_decides(firmware: Path, is_: str, other: str) -> None:
+    """Without random runs: 17 °C was only tried with the door open or while it rested, so ``< 17`` conformed."""
+    file = firmware / "firmware.py"
+    assert FIRMWARE.count(is_) == 1
+    file.write_text(FIRMWARE.replace(is_, other), encoding="utf-8")
+    result = cross_check(of_model(load(firmware / "heater.py")), running(firmware, "Heater"), effort("ci", 0))
+    assert not result.conforms and result.mismatches
+
+
 def test_the_command_writes_a_test_that_runs_the_model(
     firmware: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
