@@ -106,7 +106,7 @@ def test_each_difference_is_told_once(firmware: Path, name: str, outputs: list[s
     ],
 )
 def test_every_limit_is_met_where_it_decides(firmware: Path, is_: str, other: str) -> None:
-    """Without random runs: 17 °C was only tried with the door open or while it rested, so ``< 17`` conformed."""
+    """Without random runs: 17 °C was only tried with the door open or at rest, so ``< 17`` conformed."""
     file = firmware / "firmware.py"
     assert FIRMWARE.count(is_) == 1
     file.write_text(FIRMWARE.replace(is_, other), encoding="utf-8")
