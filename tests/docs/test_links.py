@@ -13,6 +13,7 @@ import markdown
 import pytest
 
 from docs.reference.kept import KEPT, stale
+from rovercheck.checker.cli import app
 
 ROOT = Path(__file__).parents[2]
 BUILT = {"site", "build", "dist", "node_modules"}
@@ -90,7 +91,9 @@ def test_a_link_that_leads_nowhere_is_seen(tmp_path: Path, monkeypatch: pytest.M
     assert list(broken("page.md")) == wrong
 
 
-def test_what_is_generated_and_kept_is_as_the_sources_are_today() -> None:
+def test_what_is_generated_and_kept_is_as_the_sources_are_today(monkeypatch: pytest.MonkeyPatch) -> None:
+    for verb in app.commands.values():  # click remembers the first help option that was asked of a verb alone
+        monkeypatch.setattr(verb, "_help_option", None)
     for file, content in stale():
         kept = file.read_text(encoding="utf-8").splitlines()
         changes = "\n".join(unified_diff(kept, content.splitlines(), "kept", "generated", n=0, lineterm=""))
