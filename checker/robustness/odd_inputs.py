@@ -28,7 +28,6 @@ JUMPS: Mapping[str, int] = {
 
 Moment = dict[str, Value]
 """What changes in a step, by name; of ``now_ms`` by how much the clock goes on.  Stamps are absolute."""
-OddRun = tuple[str, tuple[Moment, ...]]
 
 
 def odd_values(signal: BoardSignal) -> tuple[Value, ...]:

@@ -22,7 +22,6 @@ class RobustnessFinding:
     start: int
     moments: tuple[Moment, ...]
     inputs: tuple[Values, ...]
-    small: bool = True
 
 
 @dataclass

@@ -89,7 +89,9 @@ def test_a_page_that_is_saved_has_its_decisions_and_can_be_saved_again(
     expect(opened.locator(".hits")).not_to_be_empty()
     opened.keyboard.press("Escape")
     saved = downloaded(opened, ".d-save", tmp_path / "saved.html")
-    other = opened.context.browser.new_context().new_page()  # type: ignore[union-attr]
+    browser = opened.context.browser
+    assert browser is not None
+    other = browser.new_context().new_page()
     wrong: list[str] = []
     other.on("pageerror", lambda error: wrong.append(str(error)))
     other.on("console", lambda m: wrong.append(m.text))
