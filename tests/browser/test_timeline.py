@@ -21,6 +21,12 @@ def names(page: Page) -> list[str]:
     return [name.replace("●", "").strip() for name in told]
 
 
+def place(page: Page, selector: str) -> dict[str, float]:
+    """Where the first such element stands, asked at once: between two questions a frame may replace it."""
+    box = page.evaluate(f"document.querySelector('{selector}').getBoundingClientRect().toJSON()")
+    return {key: float(box[key]) for key in ("x", "y", "width", "height")}
+
+
 def value(page: Page, lane: str, cursor: int = 0) -> str:
     """What stands beside the name of a lane."""
     cells = page.locator(".tl-lane").evaluate_all(
@@ -72,8 +78,7 @@ def test_counts_are_told_in_between(opened: Page) -> None:
 
 
 def test_the_mouse_shows_and_a_click_holds(opened: Page) -> None:
-    box = opened.locator(".tl-plot").bounding_box()
-    assert box is not None
+    box = place(opened, ".tl-plot")
     box["y"] -= 40
     opened.mouse.move(box["x"] + 2, box["y"] + 70)
     assert opened.locator(NOW).inner_text().startswith("tick 1\n")
@@ -98,13 +103,11 @@ def test_a_phone_sees_the_whole_run_and_scrolls_the_lanes_and_not_the_page(opene
     for _ in range(6):
         opened.locator(".tl-in").click()
     opened.locator(".tl-first").click()
-    places = [opened.locator(one).bounding_box() for one in (".tl-names", ".tl-cell >> nth=0")]
+    places = [place(opened, one) for one in (".tl-names", ".tl-cell")]
     opened.locator(".tl-last").click()
     wide, more, left = opened.evaluate(frame)
     assert wide == 390 and more > 100 and left > 100
-    assert [opened.locator(one).bounding_box() for one in (".tl-names", ".tl-cell >> nth=0")] == places, (
-        "names and values stay"
-    )
+    assert [place(opened, one) for one in (".tl-names", ".tl-cell")] == places, "names and values stay"
 
 
 def test_print_has_all_and_no_controls(opened: Page) -> None:
@@ -112,8 +115,8 @@ def test_print_has_all_and_no_controls(opened: Page) -> None:
     opened.set_viewport_size({"width": 1045, "height": 740})
     assert not opened.locator(".tl-tools").is_visible() and not opened.locator(".tl-overview").is_visible()
     opened.evaluate("window.dispatchEvent(new Event('beforeprint'))")
-    plot = opened.locator(".tl-plot").bounding_box()
-    assert plot is not None and plot["x"] + plot["width"] <= 1045
+    plot = place(opened, ".tl-plot")
+    assert plot["x"] + plot["width"] <= 1045
     assert opened.locator(".told-table").is_visible()
     opened.evaluate("window.dispatchEvent(new Event('afterprint'))")
 
@@ -204,8 +207,7 @@ def test_it_fits_and_zooms_around_the_cursor(opened: Page) -> None:
 
 
 def test_the_wheel_with_ctrl_zooms_what_is_under_the_pointer(opened: Page) -> None:
-    box = opened.locator(".tl-plot").bounding_box()
-    assert box is not None
+    box = place(opened, ".tl-plot")
     x, y = box["x"] + 0.1 * box["width"], box["y"] + 30
     opened.mouse.move(x, y)
     before = opened.locator(NOW).inner_text()
@@ -225,8 +227,7 @@ def test_two_fingers_zoom_the_lanes_and_not_the_page(browser: Browser, show: Sho
     show(trace_html.render(drawn()))
     phone.goto(page.url)
     wide = edges(phone)[0]
-    box = phone.locator(".tl-frame").bounding_box()
-    assert box is not None
+    box = place(phone, ".tl-frame")
     touch = context.new_cdp_session(phone)
     x, y = box["x"] + 260, box["y"] + 120
 
@@ -245,12 +246,11 @@ def test_two_fingers_zoom_the_lanes_and_not_the_page(browser: Browser, show: Sho
 
 def test_the_overview_shows_the_part_that_is_seen_and_moves_it(opened: Page) -> None:
     def window() -> tuple[float, float]:
-        box = opened.locator(".tl-window").bounding_box()
-        assert box is not None
+        box = place(opened, ".tl-window")
         return box["x"], box["width"]
 
-    strip = opened.locator(".tl-overview").bounding_box()
-    assert strip is not None and window()[1] > 0.98 * strip["width"]
+    strip = place(opened, ".tl-overview")
+    assert window()[1] > 0.98 * strip["width"]
     opened.locator(".tl-first").click()
     for _ in range(4):
         opened.locator(".tl-in").click()
@@ -293,8 +293,7 @@ def test_two_cursors_tell_what_lies_between_them(opened: Page) -> None:
     assert value(opened, "mode") == "CRITICAL"
     opened.keyboard.press("Escape")
     assert told.inner_text() == "" and value(opened, "mode", 1) == ""
-    box = opened.locator(".tl-plot").bounding_box()
-    assert box is not None
+    box = place(opened, ".tl-plot")
     opened.mouse.click(box["x"] + 3, box["y"] + 30)
     opened.keyboard.down("Shift")
     opened.mouse.click(box["x"] + box["width"] - 3, box["y"] + 30)
@@ -348,8 +347,7 @@ def test_the_table_shows_by_a_click_what_is_repeated(silence: Page) -> None:
 
 
 def test_lanes_and_charts_are_side_by_side_on_one_screen(silence: Page) -> None:
-    lanes, charts = (silence.locator(one).bounding_box() for one in (".tl-frame", ".player-charts"))
-    assert lanes is not None and charts is not None
+    lanes, charts = (place(silence, one) for one in (".tl-frame", ".player-charts"))
     assert lanes["x"] + lanes["width"] <= charts["x"] and charts["x"] + charts["width"] <= 1280
     assert max(box["y"] + box["height"] for box in (lanes, charts)) <= 900
     assert silence.evaluate("document.documentElement.scrollWidth") == 1280
