@@ -88,7 +88,7 @@ def test_when_interrupted_the_run_is_shown_all_the_same(
 
 def test_an_explanation_that_takes_too_long_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
     assert trace_of(ExplanationOptions(seconds=-1)).necessary is None
-    assert "Wait for it with --explain." in capfd.readouterr().err
+    assert "Wait for it with --explain, or leave it out with --no-explain." in capfd.readouterr().err
     assert trace_of(ExplanationOptions.chosen(True)).needed()
 
 

@@ -10,7 +10,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 @click.command(short_help="Write a small model of your own to begin with.")
 @click.argument("folder", type=click.Path(path_type=Path), metavar="FOLDER")
 def init(folder: Path) -> Exit:
-    """Write a small model into FOLDER: a chart, properties, the expected verdicts and a file for CI."""
+    """Write into FOLDER: heater.py (a chart and its properties), baseline.toml, README.md, a CI workflow."""
     from rovercheck.checker.commands.init.run import init as run
 
     return run(folder)

@@ -48,7 +48,8 @@ class ExplanationOptions:
         if why := unexplained(trace):
             err.print(f"The cause is not looked for: {why}.", markup=False)
             return trace
-        start, task, system = process_time(), f"{prop.id}: cause", systems[trace.system.name]
+        start, system = process_time(), systems[trace.system.name]
+        task = f"{prop.id}: cause (--no-explain leaves it out)"
         try:
             with Watch(err, 1, self.quiet) as watch:
                 return explained_once(
@@ -60,7 +61,11 @@ class ExplanationOptions:
                     lambda: self.seconds is not None and process_time() - start > self.seconds,
                 )
         except OutOfTime as late:
-            err.print(f"The cause is not known: {late}. Wait for it with --explain.", markup=False)
+            err.print(
+                f"The cause is not known: {late}. Wait for it with --explain, or leave it out with "
+                "--no-explain.",
+                markup=False,
+            )
         except KeyboardInterrupt:
             err.print("Interrupted: the run is shown without its cause.", markup=False)
         return trace
