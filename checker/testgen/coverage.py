@@ -212,7 +212,7 @@ def chosen(coverage: GoalCoverage) -> Iterator[tuple[str, tuple[str, ...], Scrip
 
 def _confirmed(coverage: GoalCoverage, tests: Iterable[tuple[str, tuple[str, ...], Script]]) -> None:
     for name, goals, script in tests:
-        looked = watched(coverage.board.system, only=set(goals))
+        looked = watched(coverage.board.system, {g.kind for g in coverage.goals}, set(goals))
         reached = replayed(coverage.board, looked, steps(coverage.board, script))
         missed = [id for id in goals if id not in reached]
         if missed:

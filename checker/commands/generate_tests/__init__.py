@@ -33,8 +33,9 @@ class GenerationOptions:
     "--cover",
     "kinds",
     multiple=True,
-    type=click.Choice(["transitions", "boundaries", "pairs"]),
-    help="What the tests must reach; more than one may be given.  [default: transitions; all with --keep]",
+    type=click.Choice(["transitions", "boundaries", "conditions", "pairs"]),
+    help="What the tests must reach; more than one may be given.  [default: transitions; with --keep also "
+    "boundaries and pairs]",
 )
 @click.option(
     "--format",
@@ -95,11 +96,11 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path, mode
         from rovercheck.checker.commands.generate_tests.run import CoveringRequest
         from rovercheck.checker.commands.generate_tests.run import generate_tests as run
         from rovercheck.checker.model.load import load
-        from rovercheck.checker.system.instrument.goals import GoalKind
+        from rovercheck.checker.system.instrument.goals import KEPT, GoalKind
         from rovercheck.checker.testgen.coverage import GenerationEffort
 
         wanted = tuple(GoalKind[kind.upper()] for kind in options.kinds) or (
-            tuple(GoalKind) if options.keep else (GoalKind.TRANSITIONS,)
+            KEPT if options.keep else (GoalKind.TRANSITIONS,)
         )
         asked = CoveringRequest(
             options.names,

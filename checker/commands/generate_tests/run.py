@@ -12,7 +12,7 @@ from rovercheck.checker.commands.shared.text_wrap import filled, whole
 from rovercheck.checker.compare.variants import boards_of_model
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model import Model
-from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
+from rovercheck.checker.system.instrument.goals import KEPT, CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
 from rovercheck.checker.testgen.coverage import GenerationEffort, GoalCoverage, cover
@@ -61,6 +61,11 @@ def generate_tests(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
         raise UsageError(f"No tests of {asked.own.name} come with rovercheck; leave --kept out.")
     if asked.kept and asked.keep:
         raise UsageError("--kept writes tests without a search, --keep searches for more; leave one out.")
+    if (asked.kept or asked.keep) and not set(asked.kinds) <= set(KEPT):
+        raise UsageError(
+            "Kept tests are about transitions, boundaries and pairs; leave --cover conditions out, or write "
+            "such tests without --keep and --kept."
+        )
     found: list[Generated] = []
     boards = None if asked.own is None else boards_of_model(asked.own)
     for aim in aims(asked.names, asked.kinds, boards):

@@ -1,1 +1,1 @@
-"""Charts with flags for the transitions, boundaries and pairs that a tick reaches; they behave as before."""
+"""Charts with flags for the transitions, pairs and conditions that a tick reaches; they behave as before."""

@@ -1,4 +1,4 @@
-"""What a covering test set must reach: transitions, their pairs, boundaries of comparisons and timers."""
+"""What a covering test set must reach: transitions, their pairs, boundaries, conditions that decide."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -16,6 +16,8 @@ class GoalKind(StrEnum):
     """Each comparison is evaluated at its boundary and just beside it, each timer at N - 1, N and N + 1."""
     PAIRS = "pairs"
     """Each transition that enters a state is followed by each that leaves it."""
+    CONDITIONS = "conditions"
+    """Each condition of a decision decides it, true and false, beside its limit where it has one (MC/DC)."""
 
     @property
     def word(self) -> str:
@@ -25,7 +27,12 @@ class GoalKind(StrEnum):
     @property
     def in_id(self) -> str:
         """How the id of such a goal calls it."""
-        return {GoalKind.TRANSITIONS: "arrow", GoalKind.BOUNDARIES: "boundary", GoalKind.PAIRS: "pair"}[self]
+        return "arrow" if self is GoalKind.TRANSITIONS else _SINGULAR[self]
+
+
+_SINGULAR = {GoalKind.BOUNDARIES: "boundary", GoalKind.PAIRS: "pair", GoalKind.CONDITIONS: "condition"}
+KEPT = (GoalKind.TRANSITIONS, GoalKind.BOUNDARIES, GoalKind.PAIRS)
+"""Kinds of goals of the tests that come with rovercheck, and of those that a user keeps."""
 
 
 @dataclass(frozen=True)

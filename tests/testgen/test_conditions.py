@@ -1,0 +1,180 @@
+"""Goals for conditions that decide (MC/DC): against a definition by trial, and what their tests find."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from itertools import product
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rovercheck.checker.cli import run
+from rovercheck.checker.results.exit_code import Exit
+from rovercheck.checker.system.instrument.goals import GoalKind
+from rovercheck.checker.system.instrument.sides import deciding_sides
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.replay import first_reached
+from rovercheck.checker.testgen.scripts import steps
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr, flag, ite, var
+from rovercheck.spec_model.lang.words import named
+from tests.model_files.files import BASELINE, HEATER
+from tests.testgen.cover_toys import TOY
+
+P, Q = flag("p"), flag("q")
+X = var("x", integer(0, 3))
+CONDITIONS = {
+    "p": P, "q": Q, "x < 2": X < 2, "x <= 2": X <= 2, "x > 1": X > 1, "x >= 1": X >= 1, "x == 1": X == 1,
+}  # fmt: skip
+BESIDE = {"x < 2": (1, 2), "x <= 2": (2, 3), "x > 1": (1, 2), "x >= 1": (0, 1), "x == 1": (0, 1, 2)}
+"""The values of x on both sides of the limit, written down by hand."""
+decisions = st.recursive(
+    st.sampled_from(list(CONDITIONS.values())),
+    lambda inner: st.one_of(
+        inner.map(lambda a: ~a),
+        st.tuples(inner, inner).map(lambda two: two[0] & two[1]),
+        st.tuples(inner, inner).map(lambda two: two[0] | two[1]),
+        st.tuples(inner, inner, inner).map(lambda three: ite(*three)),
+        inner.map(lambda a: named("so", a)),
+    ),
+    max_leaves=5,
+)
+
+
+def states() -> Iterator[dict[str, int]]:
+    for p, q, x in product((0, 1), (0, 1), range(4)):
+        yield {"p": p, "q": q, "x": x}
+
+
+def by_trial(decision: Expr, condition: Expr, at: dict[str, int]) -> bool:
+    """Whether the decision is another one where the condition is given each truth by hand."""
+
+    def decided(expr: Expr, truth: bool) -> bool:
+        if str(expr) == str(condition):
+            return truth
+        args = getattr(expr, "args", None)
+        if args is None:
+            body = getattr(expr, "body", None)
+            return decided(body, truth) if body is not None else bool(evaluate(expr, at))
+        told = [decided(arg, truth) if str(arg.sort) == str(P.sort) else None for arg in args]
+        match expr.op.name:  # type: ignore[attr-defined]
+            case "NOT":
+                return not told[0]
+            case "AND":
+                return all(told)
+            case "OR":
+                return any(told)
+            case "ITE":
+                return bool(told[1] if told[0] else told[2])
+        return bool(evaluate(expr, at))
+
+    return decided(decision, True) != decided(decision, False)
+
+
+@given(decisions)
+def test_a_condition_decides_where_the_decision_changes_with_it(decision: Expr) -> None:
+    sides = list(deciding_sides(decision, 20))
+    for said, condition in CONDITIONS.items():
+        mine = [
+            s
+            for s in sides
+            if s.text.startswith((f"{said} true", f"{said} false", f"{said} just", f"{said} at"))
+        ]
+        if not mine:
+            continue
+        for at in states():
+            beside = said not in BESIDE or at["x"] in BESIDE[said]
+            met = any(evaluate(side.condition, at) for side in mine)
+            assert met == (beside and by_trial(decision, condition, at)), (said, at)
+
+
+def test_each_condition_in_a_decision_has_its_sides_once() -> None:
+    texts = [side.text for side in deciding_sides((P & (X < 2)) | (Q & P), 20)]
+    assert texts == [
+        "p true and decides", "p false and decides", "x < 2 just below and decides",
+        "x < 2 at it and decides", "q true and decides", "q false and decides",
+    ]  # fmt: skip
+    assert not [side for side in deciding_sides(X + 1, 20)]
+
+
+def test_a_limit_does_not_count_where_another_condition_decides() -> None:
+    looked = watched(TOY.system, [GoalKind.CONDITIONS])
+    texts = {goal.id: goal.text for goal in looked.goals}
+
+    def met(*presses: int) -> list[str]:
+        script = tuple({"press": bool(press), "light_lx": 10} for press in presses)
+        return [texts[id] for id in first_reached(TOY, looked, steps(TOY, script))]
+
+    assert not [text for text in met(0, 0) if text.startswith("light_lx < 10")], "the button decides"
+    assert [text for text in met(0, 1) if text.startswith("light_lx < 10 at it and decides")]
+
+
+FIRMWARE = """
+class Heater:
+    cold, warm, coil, rest, closed = 18, 22, 500, 250, True
+
+    def __init__(self):
+        self.state, self.steps = None, 0
+
+    def step(self, given):
+        temperature, door = given["temperature"], given["door_open"]
+        self.steps += 1
+        if self.state is None:
+            self.turn("Off")
+        elif self.state == "Off" and temperature < self.cold and (not door or not self.closed):
+            self.turn("On")
+        elif self.state == "On" and (door or temperature > self.warm):
+            self.turn("Off")
+        elif self.state == "On" and self.steps >= self.coil:
+            self.turn("Pause")
+        elif self.state == "Pause" and self.steps >= self.rest:
+            self.turn("Off")
+        return {"heating": self.state == "On", "Heater": ["", "Off", "On", "Pause"].index(self.state)}
+
+    def turn(self, state):
+        self.state, self.steps = state, 0
+"""
+FAULTS = {
+    "cold": (17, 19), "warm": (21, 23), "coil": (499, 501), "rest": (249, 251), "closed": (False,),
+}  # fmt: skip
+
+
+def test_every_limit_that_is_wrong_by_one_is_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
+    (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
+    faulty = {
+        f"{name}_{n}": f"{name} = {value}" for name, given in FAULTS.items() for n, value in enumerate(given)
+    }
+    classes = "".join(f"\n\nclass {name}(Heater):\n    {change}\n" for name, change in faulty.items())
+    (tmp_path / "firmware.py").write_text(FIRMWARE + classes, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    asked = [
+        "generate-tests",
+        "--model",
+        "heater.py",
+        "--cover",
+        "conditions",
+        "--format",
+        "pytest",
+        "-o",
+        "made",
+    ]
+    assert run(asked) is Exit.AS_EXPECTED
+    assert "conditions 12: 12 covered" in capsys.readouterr().out
+    for name in ("Heater", *faulty):
+        monkeypatch.setenv("ROVERCHECK_IMPL", f"python:firmware.py:{name}")
+        command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "made"]
+        code = subprocess.run(command, capture_output=True, check=False).returncode
+        assert code == (0 if name == "Heater" else 1), name
+
+
+def test_kept_tests_have_no_goals_of_that_kind(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    for word in (["--kept"], ["--keep", str(tmp_path)]):
+        assert run(["generate-tests", "--cover", "conditions", *word]) is Exit.USAGE
+        assert "leave --cover conditions out" in " ".join(capsys.readouterr().err.split())
+    assert not list(tmp_path.iterdir())
