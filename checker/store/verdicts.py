@@ -21,7 +21,7 @@ from rovercheck.checker.store.content import ContentKeys, NoKey
 from rovercheck.checker.store.verdict_json import Definite, entry, necessary_inputs, necessary_row, verdict
 from rovercheck.checker.store.versions import as_loaded, deciding
 from rovercheck.properties.forms import Property, Reachable, Unbounded
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.system import FREE, System
 
 SCHEMA = "rovercheck/stored-verdict/1"
 _LARGEST = 4 << 20
@@ -37,10 +37,14 @@ class StoredVerdict:
     together: tuple[str, ...] = ()
 
     def fits(self, prop: Property, systems: Mapping[str, System]) -> bool:
-        """Whether it can be a verdict on that property: on its system, resting on what its form rests on."""
-        if self.system not in (prop.on, systems[prop.on].concrete) or self.system not in systems:
-            return False
+        """Whether it can be a verdict on that property: on its system, resting on what its form rests on.
+
+        A proof may also be one of the system whose timers may expire at any time.
+        """
         run = isinstance(self.verdict.because, StoredRun)
+        about = self.system if run else self.system.removesuffix(FREE)
+        if about not in (prop.on, systems[prop.on].concrete) or about not in systems:
+            return False
         if run and systems[self.system].over:
             return False
         if isinstance(prop.form, Unbounded):

@@ -18,7 +18,7 @@ from rovercheck.spec_model.lang.action import Action, Assign, If, kept
 from rovercheck.spec_model.lang.chart import Chart, Component, Enabled, Junction, Path, State, Transition
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, When, any_of, flag
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.system import FREE, System
 from rovercheck.spec_model.lang.time import tick
 from rovercheck.spec_model.lang.walk import nodes, structure
 from rovercheck.spec_model.lang.words import named
@@ -47,7 +47,7 @@ def free_timers(system: System, keep: Collection[str] = (), *, name: str = "", t
         return system
     return replace(
         system,
-        name=name or f"{system.name}~free",
+        name=name or system.name + FREE,
         text=text or f"As {system.name}; timers may expire at any time.",
         components=tuple(_components(system.components, {id(c): free.chart() for c, free in charts})),
         notes=(*system.notes, _note(freed)),

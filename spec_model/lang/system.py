@@ -58,6 +58,10 @@ class Assumption:
     formula: Expr
 
 
+FREE = "~free"
+"""What the name of a system ends with whose timers may expire at any time."""
+
+
 @dataclass(frozen=True)
 class System:
     """Components executed in order in every tick.
