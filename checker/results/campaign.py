@@ -39,6 +39,11 @@ class CampaignOccurrence:
     line: int
     ticks: int = 1
 
+    @property
+    def lasts(self) -> str:
+        """How long, in words."""
+        return "1 tick" if self.ticks == 1 else f"{self.ticks:,} ticks in a row"
+
 
 @dataclass(frozen=True)
 class CampaignSighting:

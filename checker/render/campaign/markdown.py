@@ -35,7 +35,7 @@ def _lines(record: CampaignRecord) -> Iterator[str]:
             yield f"- {label}: {_plain(text)}"
         yield f"- first: {_plain(f.first.recording)}: {when(f.first)}"
         if f.worst.ticks:
-            worst = f"{f.worst.ticks:,} ticks in a row from {when(f.worst)}"
+            worst = f"{f.worst.lasts} from {when(f.worst)}"
             yield f"- worst: {_plain(f.worst.recording)}: {worst}"
     gaps = [r for r in record.recordings if r.gaps or r.message]
     if gaps:
