@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from hashlib import sha256
 from typing import Literal
 
@@ -48,6 +49,16 @@ def scope_of(mismatch: LogMismatch) -> DeviationScope:
     )
 
 
+@dataclass(frozen=True, order=True)
+class DeviationSpan:
+    """An uninterrupted stretch of ticks of the recording ``origin`` that differ, and where it begins."""
+
+    ticks: int
+    tick: int
+    line: int
+    origin: str = ""
+
+
 @dataclass(frozen=True)
 class Deviation:
     """One difference: how it shows, where it was first met, how often.
@@ -55,7 +66,7 @@ class Deviation:
     ``kind``: ``value``, ``late`` (the value of the tick before), ``frozen`` (several outputs stay while the
     charts go on) or ``swapped`` (two columns for each other).  ``first`` is its first mismatch and ``last``
     the last tick, of the recording ``origin``; ``count`` the ticks that differ, ``times`` how often it began
-    and ``runs`` in how many recordings.
+    and ``runs`` in how many recordings.  ``worst`` is the longest uninterrupted stretch.
     """
 
     kind: DeviationKind
@@ -67,6 +78,7 @@ class Deviation:
     scope: DeviationScope
     runs: int = 1
     origin: str = ""
+    worst: DeviationSpan = DeviationSpan(0, 0, 0)
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -83,7 +95,13 @@ class Deviation:
             times=self.times + other.times,
             runs=self.runs + other.runs,
             differences=tuple(known.values()),
+            worst=_longer(self.worst, other.worst),
         )
+
+
+def _longer(one: DeviationSpan, other: DeviationSpan) -> DeviationSpan:
+    """The longer of two stretches, the earlier of two that are as long."""
+    return other if (other.ticks, -other.tick) > (one.ticks, -one.tick) else one
 
 
 def _kind(one: Deviation, other: Deviation) -> DeviationKind:
@@ -104,6 +122,8 @@ class Grouping:
         self._late: dict[tuple[str, ...], LogMismatch] = {}
         self._running: dict[tuple[str, ...], tuple[int, object, DeviationScope]] = {}
         self._frozen: list[LogMismatch] = []
+        self._since: dict[tuple[str, ...], DeviationSpan] = {}
+        """The stretch in which the outputs of a piece are now."""
 
     def tick(self, tick: int, found: Sequence[LogMismatch], any_output_changed: bool) -> None:
         """The mismatches of a tick; every tick must be given, also those without."""
@@ -162,7 +182,11 @@ class Grouping:
         outputs = sorted({d.output.name for d in every.values()})
         scope = DeviationScope("frozen", "", tuple((name, "", "") for name in outputs))
         first = replace(stayed[0], part="")
-        self._join(Deviation("frozen", first, max(ticks), len(ticks), 1, tuple(every.values()), scope))
+        span = DeviationSpan(len(ticks), first.tick, first.line)
+        whole = Deviation(
+            "frozen", first, max(ticks), len(ticks), 1, tuple(every.values()), scope, worst=span
+        )
+        self._join(whole)
 
     def _add(self, part: tuple[str, ...], mismatch: LogMismatch, kind: DeviationKind) -> None:
         """A series of one value for another is one deviation, whatever the charts do meanwhile."""
@@ -173,7 +197,11 @@ class Grouping:
         if kind == "value":
             self._running[part] = (mismatch.tick, mismatch.key, scope)
         times = 0 if goes_on else 1
-        self._join(Deviation(kind, mismatch, mismatch.tick, 1, times, mismatch.differences, scope))
+        before = self._since[part].ticks if goes_on else 0
+        start = self._since[part] if goes_on else DeviationSpan(0, mismatch.tick, mismatch.line)
+        span = self._since[part] = replace(start, ticks=before + 1)
+        found = Deviation(kind, mismatch, mismatch.tick, 1, times, mismatch.differences, scope, worst=span)
+        self._join(found)
 
     def _join(self, new: Deviation) -> None:
         old = self._groups.get(new.scope)
@@ -188,6 +216,7 @@ class Grouping:
             last=max(old.last, new.last),
             count=old.count + new.count,
             times=old.times + new.times,
+            worst=_longer(old.worst, new.worst),
         )
 
 
@@ -234,7 +263,8 @@ class DeviationTally:
         """Those of one more recording, before anything is concluded from the whole of it."""
         self.evidence = evidence if self.evidence is None else self.evidence.joined(evidence)
         for one in found:
-            named = replace(one, origin=one.origin or origin)
+            worst = replace(one.worst, origin=one.worst.origin or origin)
+            named = replace(one, origin=one.origin or origin, worst=worst)
             old = self.groups.get(one.scope)
             self.groups[one.scope] = named if old is None else old.joined(named)
 
@@ -257,7 +287,9 @@ def without_ambiguous(found: Sequence[Deviation]) -> Iterator[Deviation]:
         if nearest is one:
             groups[one.scope] = one
         else:
-            joined = replace(nearest, count=nearest.count + one.count, times=nearest.times + one.times)
+            worst = _longer(nearest.worst, one.worst)
+            count, times = nearest.count + one.count, nearest.times + one.times
+            joined = replace(nearest, count=count, times=times, worst=worst)
             groups[nearest.scope] = joined
     yield from groups.values()
 
@@ -302,6 +334,7 @@ def _merged(group: Sequence[Deviation], scope: DeviationScope) -> Deviation:
         runs=max(d.runs for d in group),
         differences=tuple(every.values()),
         scope=scope,
+        worst=reduce(_longer, [d.worst for d in group]),
     )
 
 
@@ -309,6 +342,7 @@ __all__ = [
     "Deviation",
     "DeviationKind",
     "DeviationScope",
+    "DeviationSpan",
     "DeviationTally",
     "Grouping",
     "WholeEvidence",

@@ -1,6 +1,6 @@
 """Logs as recorded runs: opened anew each time that their rows are asked for."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +9,7 @@ from rovercheck.checker.conformance.recording import LogBlock, Recording
 from rovercheck.checker.logs.errors import LogError
 from rovercheck.checker.logs.log import open_log
 from rovercheck.checker.logs.mapping import ColumnMap
+from rovercheck.spec_model.abstraction import Board
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,9 @@ class LoggedRun:
     ended: list[str]
 
 
-def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
+def logged_run(
+    path: Path, how: ColumnMap, system: str = "", boards: Mapping[str, Board] | None = None
+) -> LoggedRun:
     """A log as a recorded run, as far as it can be read.
 
     Raises ``LogError`` for a file that is no log at all; so does reading its blocks.
@@ -32,14 +35,14 @@ def logged_run(path: Path, how: ColumnMap, system: str = "") -> LoggedRun:
     ended: list[str] = []
 
     def blocks() -> Iterator[LogBlock]:
-        with closing(open_log(path, how, system).blocks()) as found:
+        with closing(open_log(path, how, system, boards).blocks()) as found:
             yield next(found)
             try:
                 yield from found
             except LogError as error:
                 ended[:] = [str(error)]
 
-    log = open_log(path, how, system)
+    log = open_log(path, how, system, boards)
     with closing(log.blocks()) as found:
         next(found)
     layout = log.layout

@@ -27,12 +27,26 @@ class LogOptions:
     verbose: bool = False
     known: Path | None = None
     write_known: Path | None = None
+    html: Path | None = None
+    markdown: Path | None = None
 
 
 @click.command(short_help="Check logs recorded on a board.")
 @reading_logs
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
+@click.option(
+    "--html",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write what was found there, as one page.",
+)
+@click.option(
+    "--markdown",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="The same as Markdown, for a pull request or an issue.",
+)
 @knowing
 @changing
 @modelling

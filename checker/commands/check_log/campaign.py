@@ -60,7 +60,7 @@ class LogCampaign:
     def _of_group(self, board: str, group: Deviation) -> Judged:
         """Of one that was joined with others, or is so over all logs."""
         found = self.judgements[board].found
-        whole = [d.scope for d in self.deviations[board] if d.scope == group.scope or _joins(d, group)]
+        whole = [d.scope for d in self.deviations[board] if d.scope == group.scope or joins(d, group)]
         return found[whole[0]] if whole else Judged("new", group.scope.id(board))
 
     def unknown(self, log: LogResult) -> int:
@@ -70,10 +70,10 @@ class LogCampaign:
 
 def _groups(log: LogResult, deviation: Deviation) -> list[Deviation]:
     """The groups of a log that a deviation joins."""
-    return [one for one in log.behaviour.tally.groups.values() if _joins(deviation, one)]
+    return [one for one in log.behaviour.tally.groups.values() if joins(deviation, one)]
 
 
-def _joins(whole: Deviation, group: Deviation) -> bool:
+def joins(whole: Deviation, group: Deviation) -> bool:
     """Whether a conclusion from whole logs stands for a group of one."""
     inside = whole.scope.kind != "value" and set(group.outputs) <= set(whole.outputs)
     return inside and whole.scope.part in ("", group.scope.part)

@@ -1,6 +1,6 @@
 """``rovercheck check-log``: logs checked against the properties and the charts."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.commands.shared.known import KnownBook, known_book
 from rovercheck.checker.commands.shared.logs import column_map, logs_in, no_logs
-from rovercheck.checker.commands.shared.output import err, out
+from rovercheck.checker.commands.shared.output import err, out, possible, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.compare.variants import boards_of_model, varied
 from rovercheck.checker.io.printable import json_text
@@ -54,6 +54,8 @@ def check_log(place: Path, options: LogOptions, variant: Variant) -> Exit:
 
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
+    possible(options.html)
+    possible(options.markdown)
     changed = variant.name or variant.own is not None
     against = _against(variant, options.system) if changed else None
     book = KnownBook({}, "")
@@ -71,6 +73,7 @@ def _log(place: Path, asked: LogRequest) -> Exit:
         raise UsageError(f"{place}: {error}") from error
     campaign = LogCampaign([found], asked.book)
     _finish(campaign)
+    _report({place.name: found}, campaign, place.absolute().parent, asked)
     code = _code_of(found, campaign)
     if asked.options.as_json:
         from rovercheck.checker.commands.check_log.document import log_document
@@ -87,6 +90,23 @@ def _finish(campaign: LogCampaign) -> None:
         campaign.book.concerning(list(campaign.judgements))
     for said in campaign.book.write():
         err.print(said, markup=False)
+
+
+def _report(found: Mapping[str, Outcome], campaign: LogCampaign, folder: Path, asked: LogRequest) -> None:
+    """Write the reports that were asked for.  Raises ``UsageError``."""
+    html, markdown = asked.options.html, asked.options.markdown
+    if html is None and markdown is None:
+        return
+    from rovercheck.checker.commands.check_log.report import LogReport
+    from rovercheck.checker.render.campaign import campaign_page
+    from rovercheck.checker.render.campaign.markdown import campaign_markdown
+
+    charts = asked.against.boards if asked.against is not None else None
+    record = LogReport(found, campaign, folder, asked.how, asked.charts, charts).record()
+    if html is not None:
+        write(campaign_page(record), html)
+    if markdown is not None:
+        write(campaign_markdown(record), markdown)
 
 
 def _against(variant: Variant, name: str | None) -> LogReference:
@@ -121,6 +141,7 @@ def _folder(folder: Path, asked: LogRequest) -> Exit:
             found[log.name] = asked.outcome(log)
     campaign = LogCampaign([one for one in found.values() if isinstance(one, LogResult)], asked.book)
     _finish(campaign)
+    _report(found, campaign, folder.absolute(), asked)
     code = _code(list(found.values()), campaign)
     if asked.options.as_json:
         from rovercheck.checker.commands.check_log.document import folder_document
