@@ -117,6 +117,8 @@ class Specialiser:
             case Chart():
                 return self.chart(component) if self._occur(component.expressions) else component
             case Block():
+                if component.do and self.values.keys().isdisjoint(component.read):
+                    return component
                 do = self.actions(component.do)
                 return Block(component.name, do, text=component.text) if do else None
             case Enabled():
