@@ -42,7 +42,7 @@ class CampaignOccurrence:
     @property
     def lasts(self) -> str:
         """How long, in words."""
-        return "1 tick" if self.ticks == 1 else f"{self.ticks:,} ticks in a row"
+        return "1 tick" if self.ticks == 1 else f"{self.ticks:,} ticks"
 
 
 @dataclass(frozen=True)
