@@ -1,4 +1,4 @@
-"""What a campaign of logs or comparisons found, as data: every format is written from this one record."""
+"""What a campaign of logs found, as data: every format is written from this one record."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -47,17 +47,13 @@ class CampaignOccurrence:
 
 @dataclass(frozen=True)
 class CampaignSighting:
-    """A finding in one recording: where it is first and worst, in how many ticks, how often it begins.
-
-    ``runs``: in how many runs of a comparison; of a log 1.
-    """
+    """A finding in one recording: where it is first and worst, in how many ticks, how often it begins."""
 
     recording: str
     first: CampaignOccurrence
     worst: CampaignOccurrence
     ticks: int
     times: int
-    runs: int = 1
 
 
 @dataclass(frozen=True)
@@ -84,8 +80,6 @@ class CampaignFinding:
     more_lanes: int = 0
     """Outputs that differ, too, and are not drawn."""
     terms: KnownTerms | None = None
-    place: tuple[str, int] | None = None
-    """A file and a line of the code that gives the output, if they are known."""
 
     @property
     def first(self) -> CampaignOccurrence:
@@ -122,16 +116,6 @@ class CampaignRecording:
 
 
 @dataclass(frozen=True)
-class CampaignCause:
-    """A change of the charts that explains findings, in words; empty where none was found."""
-
-    says: str
-    part: str
-    findings: tuple[str, ...]
-    complete: bool = False
-
-
-@dataclass(frozen=True)
 class CampaignRecord:
     """All that is told of a campaign; ``noun`` is what its recordings are called."""
 
@@ -140,10 +124,8 @@ class CampaignRecord:
     charts: str
     recordings: Sequence[CampaignRecording]
     findings: Sequence[CampaignFinding]
-    causes: Sequence[CampaignCause] = ()
     notes: Sequence[str] = ()
     """What came of known deviations, besides being there."""
-    again: str = ""
 
     @property
     def headline(self) -> str:
@@ -160,6 +142,6 @@ class CampaignRecord:
 
 
 __all__ = [
-    "CampaignCause", "CampaignFinding", "CampaignOccurrence", "CampaignRecord", "CampaignRecording",
+    "CampaignFinding", "CampaignOccurrence", "CampaignRecord", "CampaignRecording",
     "CampaignSighting", "KnownTerms", "OutputLane", "OutputMoment",
 ]  # fmt: skip

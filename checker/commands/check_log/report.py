@@ -46,7 +46,7 @@ class LogReport:
         return CampaignRecord(
             f"Logs of {self.folder.name}", ("log", "logs"), self.charts,
             [_recording(name, one) for name, one in self.found.items()],
-            [*findings, *self._broken()], (), notes,
+            [*findings, *self._broken()], notes,
         )  # fmt: skip
 
     def _lanes(self, every: list[tuple[str, Deviation]]) -> dict[int, tuple[OutputLane, ...]]:

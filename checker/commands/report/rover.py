@@ -14,7 +14,7 @@ from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Covered, Edit, InterpretationRow, Remedy
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.store.verdicts import store
-from rovercheck.checker.system.instrument.goals import GoalKind
+from rovercheck.checker.system.instrument.goals import KEPT
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
 from rovercheck.checker.testgen.keep import kept_of
@@ -94,7 +94,7 @@ def coverage() -> Iterator[Covered]:
     for board in boards().values():
         kept = kept_of(board, kept_text(board.name))
         reached = {goal for _, goals, _ in kept.tests for goal in goals}
-        for kind in GoalKind:
+        for kind in KEPT:
             ids = {goal.id for goal in watched(board.system, {kind}).goals}
             proved, left = ids & kept.uncoverable.keys(), ids & kept.unknown.keys()
             yield Covered(board.name, kind.word, len(ids), len(ids & reached), len(proved), len(left))

@@ -15,9 +15,8 @@ TEMPLATES = templates("campaign")
 def campaign_page(record: CampaignRecord) -> str:
     """The page as HTML that fetches nothing."""
     style = files(__name__).joinpath("campaign.css").read_text(encoding="utf-8")
-    numbers = {f.id: number for number, f in enumerate(record.findings, 1)}
     body = TEMPLATES.get_template("campaign.html").render(
-        record=record, numbers=numbers, segments=segments, when=when, line=one_line
+        record=record, segments=segments, when=when, line=one_line
     )
     return page(one_line(record.title), [Part(Markup(body), (style,))])
 

@@ -58,8 +58,6 @@ class CiFinding:
     hazard: str = ""
     since: date | None = None
     accepted: Acceptance | None = None
-    again: str = ""
-    """The command that shows it, if that is not the one that shows a run."""
     lapsed: bool = False
     """Whether the time is over for which it was accepted."""
 
@@ -104,8 +102,6 @@ class CiFinding:
     @property
     def shown_with(self) -> str:
         """The command that shows the run."""
-        if self.again:
-            return self.again
         known = self.trace.again if self.trace is not None else ""
         return known or f"rovercheck trace {self.id}{self.options}"
 
