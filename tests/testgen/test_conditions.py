@@ -19,7 +19,8 @@ from rovercheck.checker.testgen.replay import first_reached
 from rovercheck.checker.testgen.scripts import steps
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Expr, flag, ite, var
+from rovercheck.spec_model.lang.expr import Apply, Expr, Named, flag, ite, var
+from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.words import named
 from tests.model_files.files import BASELINE, HEATER
 from tests.testgen.cover_toys import TOY
@@ -55,20 +56,17 @@ def by_trial(decision: Expr, condition: Expr, at: dict[str, int]) -> bool:
     def decided(expr: Expr, truth: bool) -> bool:
         if str(expr) == str(condition):
             return truth
-        args = getattr(expr, "args", None)
-        if args is None:
-            body = getattr(expr, "body", None)
-            return decided(body, truth) if body is not None else bool(evaluate(expr, at))
-        told = [decided(arg, truth) if str(arg.sort) == str(P.sort) else None for arg in args]
-        match expr.op.name:  # type: ignore[attr-defined]
-            case "NOT":
-                return not told[0]
-            case "AND":
-                return all(told)
-            case "OR":
-                return any(told)
-            case "ITE":
-                return bool(told[1] if told[0] else told[2])
+        match expr:
+            case Named(_, body):
+                return decided(body, truth)
+            case Apply(Op.NOT, (one,), _):
+                return not decided(one, truth)
+            case Apply(Op.AND, args, _):
+                return all(decided(arg, truth) for arg in args)
+            case Apply(Op.OR, args, _):
+                return any(decided(arg, truth) for arg in args)
+            case Apply(Op.ITE, (chosen, then, other), _):
+                return decided(then if decided(chosen, truth) else other, truth)
         return bool(evaluate(expr, at))
 
     return decided(decision, True) != decided(decision, False)
