@@ -72,7 +72,7 @@ def test_a_place_that_cannot_be_written_is_a_mistake_of_the_user(
 ) -> None:
     (tmp_path / "file").touch()
     assert run(["graph", "Relay", "-o", str(tmp_path / place)]) == Exit.USAGE
-    assert f": {why}. Choose another --output." in " ".join(capsys.readouterr().err.split())
+    assert f": {why}. Choose another file." in " ".join(capsys.readouterr().err.split())
     assert {p.name for p in tmp_path.iterdir()} == {"file"}
 
 

@@ -126,10 +126,9 @@ def write(content: str | bytes, target: Path | None) -> None:
     except BrokenPipeError:  # whoever reads has seen enough
         raise
     except OSError as error:
-        place, other = (
-            (whole(target), "Choose another") if target else ("to standard output", "Name a file with")
-        )
-        raise UsageError(f"Cannot write {place}: {error.strerror}. {other} --output.") from error
+        place = whole(target) if target else "to standard output"
+        other = "Choose another file." if target else "Name a file with --output."
+        raise UsageError(f"Cannot write {place}: {error.strerror}. {other}") from error
 
 
 def wrote(target: Path | None) -> None:
