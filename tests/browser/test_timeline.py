@@ -23,6 +23,7 @@ def names(page: Page) -> list[str]:
 
 def place(page: Page, selector: str) -> dict[str, float]:
     """Where the first such element stands, asked at once: between two questions a frame may replace it."""
+    settled(page)
     box = page.evaluate(f"document.querySelector('{selector}').getBoundingClientRect().toJSON()")
     return {key: float(box[key]) for key in ("x", "y", "width", "height")}
 
@@ -170,8 +171,14 @@ def test_thousands_of_ticks_stay_usable(show: Show) -> None:
 # --- zoom, overview, signals, a second cursor ------------------------------------------------------
 
 
+def settled(page: Page) -> None:
+    """Waits until a page has drawn what was done to it: a click on what a frame replaces is lost."""
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
 def edges(page: Page) -> tuple[float, float, float]:
     """How wide the lanes are, and which part of them is seen."""
+    settled(page)
     wide, left, room = page.evaluate(
         """() => {
           const frame = document.querySelector(".tl-frame"), names = document.querySelector(".tl-names");

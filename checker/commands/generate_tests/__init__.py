@@ -34,8 +34,9 @@ class GenerationOptions:
     "kinds",
     multiple=True,
     type=click.Choice(["transitions", "boundaries", "conditions", "pairs"]),
-    help="What the tests must reach; more than one may be given.  [default: transitions; with --keep also "
-    "boundaries and pairs]",
+    metavar="KIND",
+    help="What the tests must reach: transitions, boundaries, conditions, pairs; more than one may be "
+    "given.  [default: transitions; with --keep also boundaries and pairs]",
 )
 @click.option(
     "--format",
