@@ -325,10 +325,9 @@ def test_a_repeated_period_is_a_box_that_opens_by_a_click(silence: Page) -> None
     assert silence.locator(".tl-fold-button").get_attribute("aria-expanded") == "true"
     assert edges(silence)[0] > 5_000
     assert silence.locator(".tl-plot rect").count() < 300, "only what is seen is drawn"
-    # At once: the scrolling by which a mouse reaches the mark draws it anew, and a click on the old one is lost.
-    silence.evaluate(
-        "document.querySelector('.tl-axis .tl-handle').dispatchEvent(new MouseEvent('click', {bubbles: true}))"
-    )
+    # At once: the scrolling by which a mouse gets there draws the mark anew: a click is lost.
+    mark = "document.querySelector('.tl-axis .tl-handle')"
+    silence.evaluate(f"{mark}.dispatchEvent(new MouseEvent('click', {{bubbles: true}}))")
     assert edges(silence)[0] == wide
     silence.locator(".tl-fold-button").click()
     assert edges(silence)[0] > 5_000
