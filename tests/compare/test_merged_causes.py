@@ -13,8 +13,7 @@ from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.diagnosis.causes import by_cause
 from rovercheck.checker.diagnosis.result import diagnose_board
 from rovercheck.checker.model.load import load
-from tests.compare.test_own_models import FIRMWARE
-from tests.model_files.files import BASELINE, HEATER
+from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 
 
 @pytest.fixture

@@ -19,45 +19,7 @@ from rovercheck.spec_model.abstraction.of_system import board_of
 from rovercheck.spec_model.lang.domain import chosen
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import Assumption
-from tests.model_files.files import BASELINE, HEATER
-
-FIRMWARE = """
-class Heater:
-    limit, rest = 22, 250
-
-    def __init__(self):
-        self.state, self.steps = None, 0
-
-    def step(self, given):
-        warm, door = given["temperature"], given["door_open"]
-        self.steps += 1
-        if self.state is None:
-            self.turn("Off")
-        elif self.state == "Off" and warm < 18 and not door:
-            self.turn("On")
-        elif self.state == "On" and (door or warm > self.limit):
-            self.turn("Off")
-        elif self.state == "On" and self.steps >= 500:
-            self.turn("Pause")
-        elif self.state == "Pause" and self.steps >= self.rest:
-            self.turn("Off")
-        return {"heating": self.state == "On", "Heater": ["", "Off", "On", "Pause"].index(self.state)}
-
-    def turn(self, state):
-        self.state, self.steps = state, 0
-
-
-class Hot(Heater):
-    limit = 25
-
-
-class Brief(Heater):
-    rest = 249
-
-
-class HotAndBrief(Heater):
-    limit, rest = 25, 249
-"""
+from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 
 
 @pytest.fixture

@@ -7,6 +7,44 @@ from rovercheck.checker import model
 START = Path(str(model.__file__)).parent / "start"
 HEATER = (START / "heater.py").read_text(encoding="utf-8")
 BASELINE = (START / "baseline.toml").read_text(encoding="utf-8")
+FIRMWARE = """
+class Heater:
+    limit, rest = 22, 250
+
+    def __init__(self):
+        self.state, self.steps = None, 0
+
+    def step(self, given):
+        warm, door = given["temperature"], given["door_open"]
+        self.steps += 1
+        if self.state is None:
+            self.turn("Off")
+        elif self.state == "Off" and warm < 18 and not door:
+            self.turn("On")
+        elif self.state == "On" and (door or warm > self.limit):
+            self.turn("Off")
+        elif self.state == "On" and self.steps >= 500:
+            self.turn("Pause")
+        elif self.state == "Pause" and self.steps >= self.rest:
+            self.turn("Off")
+        return {"heating": self.state == "On", "Heater": ["", "Off", "On", "Pause"].index(self.state)}
+
+    def turn(self, state):
+        self.state, self.steps = state, 0
+
+
+class Hot(Heater):
+    limit = 25
+
+
+class Brief(Heater):
+    rest = 249
+
+
+class HotAndBrief(Heater):
+    limit, rest = 25, 249
+"""
+"""A firmware of the heater that does what its chart does, and three that do not."""
 
 
 def but(old: str, new: str) -> str:

@@ -22,7 +22,7 @@ from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Apply, Expr, Named, flag, ite, var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.words import named
-from tests.model_files.files import BASELINE, HEATER
+from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 from tests.testgen.cover_toys import TOY
 
 P, Q = flag("p"), flag("q")
@@ -110,34 +110,17 @@ def test_a_limit_does_not_count_where_another_condition_decides() -> None:
     assert [text for text in met(0, 1) if text.startswith("light_lx < 10 at it and decides")]
 
 
-FIRMWARE = """
-class Heater:
-    cold, warm, coil, rest, closed = 18, 22, 500, 250, True
-
-    def __init__(self):
-        self.state, self.steps = None, 0
-
-    def step(self, given):
-        temperature, door = given["temperature"], given["door_open"]
-        self.steps += 1
-        if self.state is None:
-            self.turn("Off")
-        elif self.state == "Off" and temperature < self.cold and (not door or not self.closed):
-            self.turn("On")
-        elif self.state == "On" and (door or temperature > self.warm):
-            self.turn("Off")
-        elif self.state == "On" and self.steps >= self.coil:
-            self.turn("Pause")
-        elif self.state == "Pause" and self.steps >= self.rest:
-            self.turn("Off")
-        return {"heating": self.state == "On", "Heater": ["", "Off", "On", "Pause"].index(self.state)}
-
-    def turn(self, state):
-        self.state, self.steps = state, 0
-"""
-FAULTS = {
-    "cold": (17, 19), "warm": (21, 23), "coil": (499, 501), "rest": (249, 251), "closed": (False,),
-}  # fmt: skip
+FAULTS = (
+    ("warm < 18", "warm < 17"),
+    ("warm < 18", "warm < 19"),
+    ("18 and not door", "18"),
+    ("warm > self.limit", "warm > self.limit - 1"),
+    ("warm > self.limit", "warm > self.limit + 1"),
+    ("self.steps >= 500", "self.steps >= 499"),
+    ("self.steps >= 500", "self.steps >= 501"),
+    ("self.steps >= self.rest", "self.steps >= self.rest - 1"),
+    ("self.steps >= self.rest", "self.steps >= self.rest + 1"),
+)
 
 
 def test_every_limit_that_is_wrong_by_one_is_found(
@@ -145,30 +128,18 @@ def test_every_limit_that_is_wrong_by_one_is_found(
 ) -> None:
     (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
     (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    faulty = {
-        f"{name}_{n}": f"{name} = {value}" for name, given in FAULTS.items() for n, value in enumerate(given)
-    }
-    classes = "".join(f"\n\nclass {name}(Heater):\n    {change}\n" for name, change in faulty.items())
-    (tmp_path / "firmware.py").write_text(FIRMWARE + classes, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    asked = [
-        "generate-tests",
-        "--model",
-        "heater.py",
-        "--cover",
-        "conditions",
-        "--format",
-        "pytest",
-        "-o",
-        "made",
-    ]
-    assert run(asked) is Exit.AS_EXPECTED
+    made = ["--cover", "conditions", "--format", "pytest", "-o", "made"]
+    assert run(["generate-tests", "--model", "heater.py", *made]) is Exit.AS_EXPECTED
     assert "conditions 12: 12 covered" in capsys.readouterr().out
-    for name in ("Heater", *faulty):
-        monkeypatch.setenv("ROVERCHECK_IMPL", f"python:firmware.py:{name}")
+    for number, (is_, other) in enumerate((("", ""), *FAULTS)):
+        assert not is_ or FIRMWARE.count(is_) == 1
+        firmware = tmp_path / f"firmware_{number}.py"
+        firmware.write_text(FIRMWARE.replace(is_, other), encoding="utf-8")
+        monkeypatch.setenv("ROVERCHECK_IMPL", f"python:{firmware.name}:Heater")
         command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "made"]
         code = subprocess.run(command, capture_output=True, check=False).returncode
-        assert code == (0 if name == "Heater" else 1), name
+        assert code == (1 if is_ else 0), other
 
 
 def test_kept_tests_have_no_goals_of_that_kind(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
