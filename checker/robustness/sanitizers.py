@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import tempfile
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ RUNTIME = re.compile(r"^\s*(?:.*/)?([^/:\s]+:\d+)(?::\d+)?: runtime error: (.*)$
 SUMMARY = re.compile(
     r"^SUMMARY: AddressSanitizer: (\S+)(?: (?:.*/)?([^/\s]+:\d+))?(?::\d+)?(?: in (\S+))?", re.M
 )
+FRAME = re.compile(r"^ +#\d+ \S+ in (\S+) (?:.*/)?([^/\s]+):\d+", re.M)
 
 
 @dataclass(frozen=True)
@@ -71,8 +73,26 @@ def said_by(folder: Path, heard: str) -> tuple[str, str] | None:
         if hit := RUNTIME.search(text):
             found = hit[1], hit[2]
         elif hit := SUMMARY.search(text):
-            found = hit[2] or hit[3] or "", hit[1]
+            found = _recursion(text) or (hit[2] or hit[3] or "", hit[1])
     return found
+
+
+def _recursion(text: str) -> tuple[str, str] | None:
+    """Files and functions that call each other until the stack is full.
+
+    The line at which it is full differs from run to run with the addresses of the process.
+    """
+    calls = Counter(FRAME.findall(text)) if "AddressSanitizer: stack-overflow" in text else {}
+    again = sorted(call for call, count in calls.items() if count > 1)
+    if not again:
+        return None
+    functions = [name for name, _ in again]
+    whom = (
+        f"{functions[0]}, which calls itself"
+        if len(again) == 1
+        else f"{', '.join(functions)}, which call each other"
+    )
+    return ", ".join(sorted({file for _, file in again})), f"stack-overflow in {whom}"
 
 
 def _said(command: list[str]) -> str:

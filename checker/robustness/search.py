@@ -159,4 +159,4 @@ def _without(run: Sequence[Moment], first: int, count: int) -> list[Moment]:
 
 def _without_numbers(text: str) -> str:
     """What a sanitizer says without the values of one run: one fault is one finding."""
-    return re.sub(r"[-+]?\d[\d.e+-]*", "N", text.partition(":")[0])
+    return re.sub(r"(?<!\w)[-+]?(?:0x[0-9a-f]+|\d[\d.e+-]*)", "N", text.partition(":")[0])

@@ -12,6 +12,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.robustness.odd_inputs import odd_runs, odd_values, started_inputs
 from rovercheck.checker.robustness.replay import opened
 from rovercheck.checker.robustness.rules import RobustnessRules, breaches, is_nonsense, read_rules
+from rovercheck.checker.robustness.sanitizers import said_by
 from rovercheck.checker.robustness.search import RobustnessSearch
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW
@@ -141,6 +142,22 @@ def test_every_planted_fault_is_found_in_a_short_run(fault, tmp_path):
     assert any(set(m) <= {shown, NOW} for f in hits for m in f.moments if m) or not shown
     others = {f.breach.kind for f in result.findings} - {kind}
     assert others <= ({"out of range"} if kind == "no number" else set()), "nothing else is wrong"
+
+
+def test_a_full_stack_is_one_finding_wherever_it_is_full(tmp_path):
+    """The line differs with the addresses of a process; once two findings, one of them not shortened."""
+    again = "".join(f"    #{n} 0x7f in {f} /x/y.c:{n % 3}\n" for n, f in enumerate(["a", "b"] * 3))
+    for leaf in ("    #9 0x7f in leaf /x/y.c:7\n", ""):
+        for calls, said in (
+            (again, "a, b, which call each other"),
+            (again.replace(" b ", " a "), "a, which calls itself"),
+        ):
+            text = f"==1==ERROR: AddressSanitizer: stack-overflow on address\n{leaf}{calls}\n"
+            summary = f"SUMMARY: AddressSanitizer: stack-overflow /x/y.c:{len(leaf)} in a\n"
+            (tmp_path / "found.1").write_text(text + summary, encoding="utf-8")
+            assert said_by(tmp_path, "") == ("y.c", f"stack-overflow in {said}")
+    (tmp_path / "found.1").write_text(summary, encoding="utf-8")
+    assert said_by(tmp_path, "") == ("y.c:0", "stack-overflow"), "a large array: no function twice"
 
 
 @pytest.mark.usefixtures("cc")
