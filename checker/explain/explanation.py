@@ -3,13 +3,15 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from random import Random
+from time import process_time
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.engines import Progress, quiet
 from rovercheck.checker.explain.necessary_inputs import forcing
-from rovercheck.checker.explain.unrolled_run import Over, never
+from rovercheck.checker.explain.unrolled_run import OutOfTime, Over, never
 from rovercheck.checker.results.trace import NecessaryInputs, Trace
 from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.store.parts import PartStore
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.partition import partitions
 from rovercheck.checker.system.slice import sliced
@@ -127,21 +129,36 @@ def explained_once(
     system: System,
     store: "VerdictStore | None",
     progress: Progress = quiet,
-    over: Over = never,
+    seconds: float | None = None,
 ) -> Trace:
     """As ``explained``; what is in the store is not looked for again, and what is found is kept there.
 
-    A set of inputs of which some may not matter is not kept.  Raises what ``explained`` raises.
+    At most so many ``seconds`` of computing, which a busy machine does not shorten.  A set of inputs of which
+    some may not matter, and that nothing was found, is kept for as many seconds only.  Raises what
+    ``explained`` raises.
     """
+    start = process_time()
+
+    def over() -> bool:
+        return seconds is not None and process_time() - start > seconds
+
     if store is None:
         return explained(trace, prop, system, progress, over)
     name = store.about("cause", prop, system, run_in(trace))
-    known = store.necessary(name)
+    parts = PartStore(store)
+    within = parts.name("cause within", prop, system, run_in(trace), seconds) if seconds is not None else None
+    known = store.necessary(name) or store.necessary(within)
     if known is not None:
         return replace(trace, necessary=known)
-    found = explained(trace, prop, system, progress, over)
-    if found.necessary is not None and found.necessary.minimal:
-        store.write_necessary(name, found.necessary)
+    if isinstance(late := parts.read(within), str):
+        raise OutOfTime(late)
+    try:
+        found = explained(trace, prop, system, progress, over)
+    except OutOfTime as late:
+        parts.write(within, str(late))
+        raise
+    if found.necessary is not None:
+        store.write_necessary(name if found.necessary.minimal else within, found.necessary)
     return found
 
 

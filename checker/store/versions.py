@@ -47,7 +47,7 @@ def deciding() -> str:
     """The key.  Raises ``OSError`` without the sources, and where one has changed since it was loaded."""
     digest = sha256()
     for path in sources():
-        if _changed(str(path)):
+        if changed(str(path)):
             raise ChangedMeanwhile(f"{path} has changed since it was loaded.")
         digest.update(f"{path.relative_to(_ROOT).as_posix()}\0".encode())
         digest.update(sha256(path.read_bytes()).digest())
@@ -58,12 +58,13 @@ def deciding() -> str:
 def as_loaded() -> bool:
     """Whether no source has changed up to now: processes that were started meanwhile may have loaded it."""
     try:
-        return not any(map(_changed, _paths(_ROOT)))
+        return not any(map(changed, _paths(_ROOT)))
     except OSError:
         return False
 
 
-def _changed(path: str) -> bool:
+def changed(path: str) -> bool:
+    """Whether a file has changed since this process was started.  Raises ``OSError`` if it is gone."""
     status = os.stat(path)
     return max(status.st_mtime, status.st_ctime) > _LOADED  # also what was put there with an older date
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from rovercheck.checker.explore.graphs.construction import made
+from rovercheck.checker.render.review.graphs import graph_view
 from rovercheck.checker.render.review.model import (
     Covered,
     Edit,
@@ -14,7 +15,6 @@ from rovercheck.checker.render.review.model import (
     ReviewAssumption,
     ReviewedProperty,
     ReviewOrigin,
-    StateGraphView,
     SystemSummary,
 )
 from tests import toys
@@ -55,9 +55,7 @@ PART = checked(f"T-6 {EVIL}", "proved", in_part=True, text=EVIL, formula=(("that
 WITNESS = checked("T-7", "proved", trace=RUN, form="Reachable")
 
 GRAPH = made(toys.relay(), ("on",), wanted=("on",), looked_for="T-1 is broken").with_ways()
-SEEN = StateGraphView(
-    "toy", GRAPH, ("T-1",), {"T-1": (0, 0, 1), EVIL: (0,)}, "rovercheck graph toy", ("T-2",)
-)
+SEEN = graph_view("toy", GRAPH, {"T-1": (0, 0, 1), EVIL: (0,)}, ("T-1",), "rovercheck graph toy", ("T-2",))
 
 ALL = (BROKEN, SAME, CHANGED, FINE, PART, WITNESS, OPEN)
 

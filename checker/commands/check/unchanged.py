@@ -107,11 +107,12 @@ def _model(found: Any) -> ToldModel:
     return ToldModel(
         {str(id): _record(ToldProperty, row) for id, row in found["properties"].items()},
         list(map(str, found["systems"])),
-        {str(id): _verdict(row) for id, row in found["verdicts"].items()},
+        {str(id): told_of(row) for id, row in found["verdicts"].items()},
     )
 
 
-def _verdict(row: Mapping[str, Any]) -> ToldVerdict:
+def told_of(row: Mapping[str, Any]) -> ToldVerdict:
+    """What was told of a verdict, from its fields as JSON.  Raises one of ``entries.MEANINGLESS``."""
     codes = {name: Exit(row[name]) for name in ("code", "strict_code")}
     lists = {name: tuple(row[name]) for name in ("covers", "fired")}
     gravity = row["gravity"]

@@ -1,5 +1,6 @@
 """The verb ``report``: one page with all verdicts and their evidence, for reviewers."""
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 from shlex import join
@@ -7,6 +8,7 @@ from shlex import join
 import click
 from click.core import ParameterSource
 
+from rovercheck.checker.cache.places import STORE
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import (
     GIB,
@@ -114,6 +116,17 @@ def report(
     from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
+        from rovercheck.checker.commands.check.findings import Guide
+        from rovercheck.checker.commands.report.kept_page import PageKeeper, delivered, possible
+
+        possible(output, options.pdf)
+        options = replace(options, command=command(context))
+        keeper = None
+        if charts == VariantOptions() and not search.no_store and os.environ.get(STORE) != "":
+            keeper = PageKeeper.now(search, selection, options)
+        kept = keeper.read() if keeper is not None else None
+        if kept is not None:
+            return delivered(kept, Guide(""), output, options.pdf)
         from rovercheck.checker.commands.report.run import report as run
         from rovercheck.checker.commands.shared.select import pick_engine
         from rovercheck.checker.commands.shared.variant import askable, certifying
@@ -134,9 +147,7 @@ def report(
             search.store(engine),
         )
         some = not selection.whole or bool(variant.name)
-        return run(
-            variant, properties, settings, replace(options, command=command(context), some=some), output
-        )
+        return run(variant, properties, settings, replace(options, some=some), output, keeper)
 
 
 def command(context: click.Context) -> str:

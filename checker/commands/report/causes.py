@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from time import process_time
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import err
@@ -66,12 +65,7 @@ def _with_reason(
 
 def _forced(run: Trace, prop: Property, system: System, search: CauseSearch, progress: Progress) -> Trace:
     """The run with what forces its end, as far as that is found in time."""
-    start = process_time()
-
-    def late() -> bool:
-        return search.seconds is not None and process_time() - start > search.seconds
-
     try:
-        return explained_once(run, prop, system, search.store, progress, late)
+        return explained_once(run, prop, system, search.store, progress, search.seconds)
     except OutOfTime:
         return run

@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import asdict
 from functools import partial
 
+from rovercheck.checker.cache.entries import MEANINGLESS
 from rovercheck.checker.commands.shared.output import counted, err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Limits, Progress
@@ -11,11 +13,14 @@ from rovercheck.checker.explore.graphs.construction import seen
 from rovercheck.checker.explore.graphs.projection import projection
 from rovercheck.checker.explore.graphs.reachable_ticks import ReachableTicks
 from rovercheck.checker.explore.graphs.search import Exploration, explore
+from rovercheck.checker.render.review.graphs import graph_view, kept_view
 from rovercheck.checker.render.review.model import StateGraphView
 from rovercheck.checker.results.graph import StateGraph, with_trace
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.store.parts import UNKEPT, PartStore
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.errors import ModelError
@@ -34,12 +39,13 @@ Undrawn = tuple[str, str]
 
 
 def state_graphs(
-    found: Sequence[CheckedProperty], systems: Sequence[System], options: str
+    found: Sequence[CheckedProperty], systems: Sequence[System], options: str, kept: PartStore = UNKEPT
 ) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
     Systems with the real runs come before those with more or fewer, and marked graphs before others.  Also
-    why some charts have no graph; ``options`` is what a command needs besides.
+    why some charts have no graph; ``options`` is what a command needs besides.  One that is ``kept`` is not
+    made again.
     """
     wanted = sorted((s for s in systems if s.charts), key=lambda s: s.over or s.under)
     graphs: dict[str, StateGraphView] = {}
@@ -49,7 +55,7 @@ def state_graphs(
         for system in wanted:
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:
-                one = _state_graph(system, asked, found, options, partial(watch.say, system.name))
+                one = _kept_graph(system, asked, found, options, kept, partial(watch.say, system.name))
                 if isinstance(one, StateGraphView):
                     graphs[system.name] = one
                     drawn.add(_charts(system))
@@ -65,34 +71,56 @@ def _charts(system: System) -> frozenset[str]:
     return frozenset(c.name for c in system.charts)
 
 
+def _kept_graph(
+    system: System,
+    asked: Sequence[Property],
+    found: Sequence[CheckedProperty],
+    options: str,
+    kept: PartStore,
+    progress: Progress,
+) -> StateGraphView | str:
+    """The graph, or why there is none: as it is kept, or made and kept unless time has ended it."""
+    runs = [(c.result.property, c.result.system, run_in(run)) for c, run in _broken(found, system)]
+    name = kept.name("graph", system, [*asked], runs, LIMITS, options)
+    before = kept.read(name)
+    if isinstance(before, str):
+        return before
+    if before is not None:
+        with suppress(*MEANINGLESS):
+            return kept_view(before)
+    late, one = _state_graph(system, asked, found, options, progress)
+    if not late:
+        kept.write(name, one if isinstance(one, str) else asdict(one))
+    return one
+
+
 def _state_graph(
     system: System,
     asked: Sequence[Property],
     found: Sequence[CheckedProperty],
     options: str,
     progress: Progress,
-) -> StateGraphView | str:
-    """The graph, or why there is none."""
+) -> tuple[bool, StateGraphView | str]:
+    """The graph, or why there is none; first whether the limit of time has something to do with it."""
     if len(system.charts) > CHARTS:
-        return f"{len(system.charts)} charts"
+        return False, f"{len(system.charts)} charts"
     try:
-        exploration, wanted = _explored(system, asked, progress)
+        late, exploration, wanted = _explored(system, asked, progress)
     except ModelError as problem:
-        return str(problem)
+        return False, str(problem)
     if stopped := exploration.explored.stopped:
         many = f"more than {counted(len(exploration.explored), 'state', 'states')}"
-        return many if "memory" in stopped else stopped
+        return late, many if "memory" in stopped else stopped
     onto = _onto(system, exploration.explored)
     if onto is None:
-        return "no combination of its charts with few nodes, and more than one"
+        return late, "no combination of its charts with few nodes, and more than one"
     ids = tuple(p.id for p in asked)
     marked, unmarked = (ids, ()) if wanted else ((), ids)
     says = f"{', '.join(marked)} {'is' if len(marked) == 1 else 'are'} broken" if marked else ""
     graph = seen(exploration, onto, wanted, says).with_ways()
     runs = dict(_paths(graph, found, system))
-    return StateGraphView(
-        system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked
-    )
+    again = f"rovercheck graph {system.name}{options}"
+    return late, graph_view(system.name, graph, runs, marked, again, unmarked)
 
 
 def _marked(compared: CheckedProperty, system: System) -> bool:
@@ -103,17 +131,24 @@ def _marked(compared: CheckedProperty, system: System) -> bool:
 
 def _explored(
     system: System, asked: Sequence[Property], progress: Progress
-) -> tuple[Exploration, tuple[str, ...]]:
-    """With the monitors of the properties, and the variables that mark; without where that is too much."""
+) -> tuple[bool, Exploration, tuple[str, ...]]:
+    """With the monitors of the properties, and the variables that mark; without where that is too much.
+
+    First whether time was too short for something.
+    """
     lowered = lower(system)
     places = _places(system)
+    late = False
     if asked:
         question = reduce(lowered, asked)
         goals = tuple(goal.var.name for goal in question.goals)
         exploration = explore(question.system, [*places, *goals], LIMITS, progress)
         if not exploration.explored.stopped:
-            return exploration, goals
-    return explore(lowered, places, LIMITS, progress), ()
+            return False, exploration, goals
+        late = "memory" not in exploration.explored.stopped
+    exploration = explore(lowered, places, LIMITS, progress)
+    stopped = exploration.explored.stopped
+    return late or bool(stopped and "memory" not in stopped), exploration, ()
 
 
 def _places(system: System) -> list[str]:
@@ -165,9 +200,15 @@ def _paths(
 
     One of a system with real runs may lack a variable.
     """
+    for compared, trace in _broken(found, system):
+        with suppress(ModelError):
+            yield compared.result.property.id, with_trace(graph, trace).path
+
+
+def _broken(found: Sequence[CheckedProperty], system: System) -> Iterator[tuple[CheckedProperty, Trace]]:
+    """The findings about the system with their runs."""
     for compared in found:
         verdict, result = compared.verdict, compared.result
         about = system.name in (result.system, result.property.on)
         if about and isinstance(verdict, Violated) and isinstance(verdict.because, Trace):
-            with suppress(ModelError):
-                yield result.property.id, with_trace(graph, verdict.because).path
+            yield compared, verdict.because

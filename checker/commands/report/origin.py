@@ -35,10 +35,15 @@ def origin(model: Model, variant: Variant, code: Exit, options: PageOptions) -> 
         options.date,
         variant.name,
         options.document,
-        commit_of(model.path or _folder("spec_model")),
+        commit_of(model.path) if model.path else commit_of_rover(),
         options.reviewer,
         model.options,
     )
+
+
+def commit_of_rover() -> str:
+    """The commit of the rover's charts, as far as it is known."""
+    return commit_of(_folder("spec_model"))
 
 
 def versions() -> list[tuple[str, str]]:

@@ -13,6 +13,7 @@ from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Covered, Edit, InterpretationRow, Remedy
 from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.store.parts import PartStore
 from rovercheck.checker.store.verdicts import store
 from rovercheck.checker.system.instrument.goals import KEPT
 from rovercheck.checker.system.instrument.watch import watched
@@ -27,13 +28,13 @@ from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.repairs import Repair, repairs
 
 
-def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool) -> Extras:
+def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool, kept: PartStore) -> Extras:
     """All of it; repairs only if wanted and for the charts as specified."""
     mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
     taken = tuple(
         interpretation(one, variant.choices.get(one.id, one.default)) for one in ambiguities().values()
     )
-    return Extras(taken, partial(of_verdict, variant=variant), mended, tuple(coverage()))
+    return Extras(taken, partial(of_verdict, variant=variant, kept=kept), mended, tuple(coverage()))
 
 
 def interpretation(one: Ambiguity, taken: str) -> InterpretationRow:

@@ -8,18 +8,16 @@ from pathlib import Path
 from rovercheck.checker.certify.file import Unwritable
 from rovercheck.checker.commands.check.findings import Guide
 from rovercheck.checker.commands.check.premises import LONG, PATIENCE, cases, patient
-from rovercheck.checker.commands.check.text import summary
 from rovercheck.checker.commands.report import PageOptions
 from rovercheck.checker.commands.report.causes import CauseSearch, with_reasons
 from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
 from rovercheck.checker.commands.report.graphs import state_graphs
+from rovercheck.checker.commands.report.kept_page import KeptPage, PageKeeper, delivered
 from rovercheck.checker.commands.report.origin import origin
-from rovercheck.checker.commands.report.pdf import printable, printed
 from rovercheck.checker.commands.report.rover import extras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.dependencies import of_verdict
-from rovercheck.checker.commands.shared.output import counted, err, out, write
-from rovercheck.checker.commands.shared.text_wrap import whole
+from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.told import told
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.trace.explain import SECONDS
@@ -27,6 +25,7 @@ from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import file_of, read
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.review import render
+from rovercheck.checker.store.parts import UNKEPT, PartStore
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, worst
 from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.checker.verify.searches import SearchSettings
@@ -39,21 +38,15 @@ def report(
     search: SearchSettings,
     options: PageOptions,
     output: Path,
+    keeper: PageKeeper | None = None,
 ) -> Exit:
-    """Decide the properties and write the page, all of it or nothing.
+    """Decide the properties and write the page, all of it or nothing; a ``keeper`` keeps it.
 
-    Raises ``UsageError`` where a file cannot be written or printed, before anything is searched if that is
-    certain.
+    Raises ``UsageError`` where a file cannot be written or printed.
     """
     if not properties:
         err.print("Nothing to report on: the selection holds no property.")
         return Exit.NOTHING
-    if not output.parent.is_dir() or output.is_dir():
-        raise UsageError(
-            f"Cannot write {whole(output)}: it is no file in a folder that exists. Choose another --output."
-        )
-    if options.pdf is not None:
-        printable(options.pdf)
     model = replace(variant.model, systems=variant.systems())
     known = read(file_of(variant.model)) if options.premises is not False else {}
     found: list[CheckedProperty] = []
@@ -67,18 +60,16 @@ def report(
         if options.premises is not False:
             asked = patient(search, LONG if options.premises else PATIENCE)
             cases_known = cases(found, model.systems, asked, known)
-        write(page(model, variant, found, options, cases_known), output)
-        if options.pdf is not None:
-            printed(output, options.pdf)
+        html = page(model, variant, found, options, cases_known, PartStore(search.store))
+        made = KeptPage(html, [told(one, order_of(model)) for one in found], worst(found))
+        if keeper is not None:
+            keeper.write(made)
+        return delivered(made, Guide(variant.options), output, options.pdf)
     except Unwritable as error:
         raise UsageError(str(error)) from error
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided; nothing was written.")
         return Exit.INTERRUPTED
-    summary([told(one, order_of(model)) for one in found], Guide(variant.options))
-    for file in filter(None, (output, options.pdf)):
-        out.print(f"{whole(file)}: {counted(file.stat().st_size, 'byte', 'bytes')}.", markup=False)
-    return worst(found)
 
 
 def page(
@@ -87,14 +78,18 @@ def page(
     found: Sequence[CheckedProperty],
     options: PageOptions,
     cases_known: Mapping[str, PremiseCase] | None = None,
+    kept: PartStore = UNKEPT,
 ) -> str:
-    """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id."""
+    """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id.
+
+    Parts of it that are ``kept`` are not made again.
+    """
     own = (
-        extras(variant, found, not options.no_repairs)
+        extras(variant, found, not options.no_repairs, kept)
         if model.path is None
         else Extras(depends=partial(of_verdict, variant=variant))
     )
-    graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
+    graphs, undrawn = state_graphs(found, concerned(found, model), model.options, kept)
     own = replace(own, premises=cases_known or {}, graphs=graphs, undrawn=undrawn)
     return render(
         reviewed(model, found, origin(model, variant, worst(found), options), own, not options.some)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from time import process_time
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import err
@@ -48,17 +47,12 @@ class ExplanationOptions:
         if why := unexplained(trace):
             err.print(f"The cause is not looked for: {why}.", markup=False)
             return trace
-        start, system = process_time(), systems[trace.system.name]
+        system = systems[trace.system.name]
         task = f"{prop.id}: cause (--no-explain leaves it out)"
         try:
             with Watch(err, 1, self.quiet) as watch:
                 return explained_once(
-                    trace,
-                    prop,
-                    system,
-                    self.store,
-                    lambda line: watch.say(task, line),
-                    lambda: self.seconds is not None and process_time() - start > self.seconds,
+                    trace, prop, system, self.store, lambda line: watch.say(task, line), self.seconds
                 )
         except OutOfTime as late:
             err.print(

@@ -27,8 +27,7 @@ from rovercheck.checker.render.review.cover import (
 from rovercheck.checker.render.review.fragments import PackedFragments
 from rovercheck.checker.render.review.model import PROVED, HazardRow, Review, ReviewedProperty, StateGraphView
 from rovercheck.checker.render.statechart_svg import size
-from rovercheck.checker.render.stategraph.fragment import part as stategraph
-from rovercheck.checker.render.stategraph.fragment import shows, trust
+from rovercheck.checker.render.stategraph import fragment as stategraph
 from rovercheck.checker.render.story import ending, false_parts, heading
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.chart import Chart
@@ -83,8 +82,6 @@ def render(review: Review) -> str:
         false_parts=false_parts,
         gallery=GALLERY,
         runs=runs,
-        trusted={g.system: trust(g.graph).body for g in review.graphs},
-        found_in={g.system: shows(g.graph).body for g in review.graphs},
         signs=SIGNS,
         states=STATES,
         sign=sign,
@@ -95,8 +92,8 @@ def render(review: Review) -> str:
         **_first_pages(review),
     )
     body = TEMPLATES.get_template("review.html").render(shown)
-    styled = [*told.values(), *(trust(g.graph) for g in review.graphs)]
-    styles = dict.fromkeys(text for part in styled for text in part.styles)
+    graph_styles = stategraph.STYLES if review.graphs else ()
+    styles = dict.fromkeys((*(text for part in told.values() for text in part.styles), *graph_styles))
     parts = [Part(Markup(body), (*styles, own("review.css")), tuple(map(own, SCRIPTS)))]
     packed = _pictures(runs, told, review.graphs)
     about = vars(TEMPLATES.get_template("property.html").make_module(shown))["about"]
@@ -231,7 +228,8 @@ def _pictures(
     if runs:
         packed.add(GALLERY, [traces.pictures(list(runs.values()))])
     for one in graphs:
-        packed.add(f"graph {one.system}", [stategraph(one.graph, one.runs, alone=False)])
+        picture = Part(Markup(one.picture), stategraph.STYLES, stategraph.SCRIPTS)
+        packed.add(f"graph {one.system}", [picture])
     return packed
 
 

@@ -7,7 +7,6 @@ it of that.  Whatever is empty is left out of the page, or said to be missing.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rovercheck.checker.results.graph import StateGraph
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.chart import Chart
 
@@ -201,24 +200,28 @@ class Covered:
 
 @dataclass(frozen=True)
 class StateGraphView:
-    """The reachable states of a system, seen through some variables.
+    """The reachable states of a system, seen through some variables, as texts and HTML.
 
+    ``picture``, ``trusted`` and ``shows`` are the bodies of the parts of ``render.stategraph.fragment``.
     ``asked`` are the properties whose breaking is marked, ``unmarked`` those for which that would take too
-    much, ``runs`` the nodes that counterexamples pass, by
-    property.  ``again`` is the command that says what else can be seen of it.
+    much.  ``again`` is the command that says what else can be seen of it.
     """
 
     system: str
-    graph: StateGraph
+    variables: tuple[str, ...]
+    size: str
+    kind: str
+    picture: str
+    trusted: str
+    shows: str
     asked: tuple[str, ...] = ()
-    runs: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     again: str = ""
     unmarked: tuple[str, ...] = ()
 
     @property
     def charts(self) -> tuple[str, ...]:
         """The charts whose states are seen."""
-        return tuple(dict.fromkeys(name.partition(".")[0] for name in self.graph.variables))
+        return tuple(dict.fromkeys(name.partition(".")[0] for name in self.variables))
 
 
 @dataclass(frozen=True)

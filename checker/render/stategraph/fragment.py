@@ -22,19 +22,22 @@ PANZOOM = (
 MOST_ROWS = 120
 """Rows of a run that are shown; the page says how many it leaves out."""
 
+
+def own(name: str) -> str:
+    """The text of a file beside this one."""
+    return files(__name__.rpartition(".")[0]).joinpath(name).read_text(encoding="utf-8")
+
+
 Row = tuple[str, str, list[str]]
 """Ticks, milliseconds, and what happened."""
 
 
 BESIDE = 12
 """Edges with labels in a picture among others, which has to be read without zooming."""
+STYLES = (own("stategraph.css"),)
+SCRIPTS = (PANZOOM, own("stategraph.js"))
 TRUST = ("size", "kind", "because")
 """Headings of what ``trust`` says, too, or what is said of it elsewhere."""
-
-
-def own(name: str) -> str:
-    """The text of a file beside this one."""
-    return files(__name__.rpartition(".")[0]).joinpath(name).read_text(encoding="utf-8")
 
 
 def trust(graph: StateGraph) -> Part:
@@ -49,7 +52,7 @@ def shows(graph: StateGraph) -> Part:
 
 def _words(template: str, graph: StateGraph, **more: object) -> Part:
     body = TEMPLATES.get_template(template).render(graph=graph, **more)
-    return Part(Markup('<div class="sg-words">\n{}</div>').format(Markup(body)), (own("stategraph.css"),))
+    return Part(Markup('<div class="sg-words">\n{}</div>').format(Markup(body)), STYLES)
 
 
 def part(graph: StateGraph, runs: Mapping[str, Sequence[int]] = {}, alone: bool = True) -> Part:
@@ -73,7 +76,7 @@ def part(graph: StateGraph, runs: Mapping[str, Sequence[int]] = {}, alone: bool 
         rows=[(node, ", ".join(values(graph, node)), _flags(graph, node)) for node in graph.nodes],
         data=data(document(graph) | {"runs": runs}, "stategraph-data"),
     )
-    return Part(Markup(body), (own("stategraph.css"),), (PANZOOM, own("stategraph.js")))
+    return Part(Markup(body), STYLES, SCRIPTS)
 
 
 def document(graph: StateGraph) -> dict[str, Any]:
