@@ -179,6 +179,7 @@ def test_moving_pictures_are_kept_for_every_trace_and_each_chart_once(document: 
     proofs = {inside(one.id) for one in ALL if not one.finding}
     assert set(fragments) == {"T-1", "T-2", "T-7", "*", "graph toy", *proofs, *DRAWN}
     assert all(fragments[id].count('<section class="player') == 1 for id in ("T-1", "T-2", "T-7"))
+    assert not any("<noscript" in one for one in fragments.values()), "a script unpacks them: none is shown"
     assert fragments["*"].count("<template") == 1
     assert "told" in fragments["T-7"] and "told" not in fragments["T-1"]
 

@@ -33,8 +33,8 @@ def story(trace: Trace) -> Part:
 
 
 def moving(trace: Trace) -> list[Part]:
-    """The timeline, and the charts on which the run is played."""
-    return [timeline.part(trace), player.part(trace, pictures=False, printed=False)]
+    """The timeline, and the charts on which the run is played: a script shows both."""
+    return [timeline.part(trace, still=False), player.part(trace, pictures=False, printed=False)]
 
 
 def pictures(traces: Sequence[Trace]) -> Part:

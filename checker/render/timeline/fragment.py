@@ -22,10 +22,11 @@ TALLEST = 30
 """Pixels of a lane at least: a name in two lines."""
 
 
-def part(trace: Trace, *, everything: bool = False) -> Part:
+def part(trace: Trace, *, everything: bool = False, still: bool = True) -> Part:
     """The timeline of a trace: what the property depends on, or ``everything``.
 
-    Several may be on one page.
+    Several may be on one page.  Without scripts it is a ``still`` picture; not where only a script can show
+    it anyway.
     """
     shown = timeline(trace, everything=everything)
     ordered = replace(shown, lanes=tuple(lane for group in LaneGroup for lane in shown.of(group)))
@@ -40,7 +41,7 @@ def part(trace: Trace, *, everything: bool = False) -> Part:
         ending=shown.ending,
         broken=broken,
         number=lambda lane, end: f"{float(reach(lane)[end]):g}",
-        still=Markup(picture(shown)),
+        still=Markup(picture(shown)) if still else "",
         data=data(_data(ordered), "tl-data"),
     )
     styles = (own("timeline.css"), sheet(THEMED))
