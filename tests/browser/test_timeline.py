@@ -325,12 +325,28 @@ def test_a_repeated_period_is_a_box_that_opens_by_a_click(silence: Page) -> None
     assert silence.locator(".tl-fold-button").get_attribute("aria-expanded") == "true"
     assert edges(silence)[0] > 5_000
     assert silence.locator(".tl-plot rect").count() < 300, "only what is seen is drawn"
-    # At once: the scrolling by which a mouse gets there draws the mark anew: a click is lost.
     mark = "document.querySelector('.tl-axis .tl-handle')"
     silence.evaluate(f"{mark}.dispatchEvent(new MouseEvent('click', {{bubbles: true}}))")
     assert edges(silence)[0] == wide
     silence.locator(".tl-fold-button").click()
     assert edges(silence)[0] > 5_000
+
+
+def test_a_mark_that_is_drawn_anew_under_the_mouse_can_be_clicked(silence: Page) -> None:
+    """Scrolling draws the marks anew; between press and release a click on one was lost."""
+    wide = edges(silence)[0]
+    silence.locator(".tl-fold-button").click()
+    box = place(silence, ".tl-axis .tl-handle")
+    assert box["x"] < 700, "the axis stands above the lanes, however wide they are"
+    silence.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    silence.mouse.down()
+    silence.evaluate("document.querySelector('.tl-frame').scrollLeft += 1")
+    settled(silence)
+    silence.mouse.up()
+    assert edges(silence)[0] == wide
+    box = place(silence, ".tl-plot .tl-fold")
+    silence.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    assert edges(silence)[0] > 5_000, "one click is one click"
 
 
 def test_every_value_within_a_box_is_known(silence: Page) -> None:

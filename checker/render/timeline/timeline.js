@@ -30,6 +30,12 @@
   const milliseconds = ([, number, unit]) => Number(number) * (unit === " s" ? 1000 : 1);
   const duration = (ms) => (ms < 1000 ? `${ms} ms` : `${ms / 1000} s`);
 
+  /** The number of the stretch that an event is on; null if there is none. */
+  const stretchAt = (event) => {
+    const one = event.target.closest("[data-stretch]");
+    return one && Number(one.dataset.stretch);
+  };
+
   class Timeline {
     constructor(root) {
       this.root = root;
@@ -89,6 +95,10 @@
       });
       this.plot.addEventListener("click", (event) => this.click(event));
       this.axis.addEventListener("click", (event) => this.toggled(event));
+      for (const place of [this.plot, this.axis]) {
+        place.addEventListener("pointerdown", (event) => { this.pressed = stretchAt(event); this.taken = false; });
+        place.addEventListener("pointerup", (event) => this.released(event));
+      }
       this.frame.addEventListener("keydown", (event) => this.key(event));
       this.frame.addEventListener("scroll", () => this.later());
       zoomable(this.frame, (factor, x) => this.zoom(factor, x));
@@ -110,9 +120,18 @@
 
     /** Whether a stretch that is shortened was clicked at, which opens, or the mark that shortens it again. */
     toggled(event) {
-      const one = event.target.closest("[data-stretch]");
-      if (one) this.toggle(Number(one.dataset.stretch));
-      return Boolean(one);
+      if (event.detail && this.taken) return true;
+      const one = stretchAt(event);
+      if (one !== null) this.toggle(one);
+      return one !== null;
+    }
+
+    /** A mark that is drawn anew between press and release gets no click: both are on the same stretch. */
+    released(event) {
+      const one = event.button ? null : stretchAt(event);
+      if (one === null || one !== this.pressed) return;
+      this.taken = true;
+      this.toggle(one);
     }
 
     toggle(number) {
