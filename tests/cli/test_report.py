@@ -57,7 +57,7 @@ def shown(document: str, id: str) -> str:
 def test_a_violation_on_record_is_as_expected(made: tuple[Exit, str]) -> None:
     code, document = made
     assert code == Exit.AS_EXPECTED
-    assert "Exit code 0: every verdict is as expected." in document
+    assert "Exit code 0: every verdict is as expected, what is violated being on record" in document
 
 
 def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit, str]) -> None:
