@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from rovercheck.spec_model.lang.chart import Chart, Path, State
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError, LabelText
+from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError, LabelText, UnknownName
 from rovercheck.spec_model.lang.stateflow.names import LabelNames, names_of
 from rovercheck.spec_model.lang.stateflow.statements import errors_of, state_of, transition_of
 from rovercheck.spec_model.lang.transition import Junction, Transition
@@ -19,7 +19,7 @@ def with_labels_read(chart: Chart) -> tuple[State, tuple[str, ...]]:
     reader = _Reader(chart)
     try:
         names_of(chart, (), chart.data)
-        return reader.state((), chart.root), tuple(dict.fromkeys(reader.faults))
+        return reader.state((), chart.root), reader.every_fault()
     except ModelError as error:
         where = f"{chart.place}: " if chart.place else ""
         return chart.root, (f"{where}Chart {chart.name!r}: {error}",)
@@ -30,6 +30,7 @@ class _Reader:
 
     def __init__(self, chart: Chart) -> None:
         self.chart, self.faults = chart, list[str]()
+        self.unknown = dict[str, tuple[LabelText, str, UnknownName]]()
         self._names: dict[Path, LabelNames] = {}
 
     def names(self, path: Path) -> LabelNames:
@@ -83,4 +84,17 @@ class _Reader:
         if isinstance(error, RecursionError):
             said = "this is nested too deeply to be read; name parts of it with named()."
             error = LabelError(said, Extent(0, len(label.text)))
-        self.faults += (label.fault(of, one) for one in errors_of(error))
+        for one in errors_of(error):
+            if isinstance(one, UnknownName) and not self.chart.data:
+                self.unknown.setdefault(one.name, (label, of, one))
+            else:
+                self.faults.append(label.fault(of, one))
+
+    def every_fault(self) -> tuple[str, ...]:
+        """All faults, each once; of a chart without data its unknown names together, at the first of them."""
+        if self.unknown:
+            label, of, first = next(iter(self.unknown.values()))
+            names = ", ".join(self.unknown)
+            said = f"the chart has no data, and its labels use {names}. Write data=[{names}] in Chart(...)."
+            self.faults.insert(0, label.fault(of, LabelError(said, first.at)))
+        return tuple(dict.fromkeys(self.faults))

@@ -29,6 +29,14 @@ class LabelError(ModelError):
         self.said, self.at = said, at
 
 
+class UnknownName(LabelError):
+    """A name in a label that stands for nothing there."""
+
+    def __init__(self, name: str, near: str, at: Extent) -> None:
+        super().__init__(f"`{name}` is unknown here. {near}", at)
+        self.name = name
+
+
 @dataclass(frozen=True)
 class LabelText:
     """A text of the model, and the call that it is written in: its place, and where it begins and ends."""

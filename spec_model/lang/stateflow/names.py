@@ -12,7 +12,7 @@ from rovercheck.spec_model.lang.domain import Domain, Enum
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
 from rovercheck.spec_model.lang.expr import Const, Expr, Named, Var
 from rovercheck.spec_model.lang.function import Function
-from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError
+from rovercheck.spec_model.lang.stateflow.message import Extent, LabelError, UnknownName
 from rovercheck.spec_model.lang.walk import nodes, structure
 
 Datum = Var | Named | Const | Array | Function | Chart | Domain
@@ -129,7 +129,7 @@ class LabelNames:
             raise LabelError(f"`{name}` is an array; write one of it, such as `{name}[0]`.", at)
         if name in self.functions:
             raise LabelError(f"`{name}` is a function; write `{self.functions[name].call}`.", at)
-        raise LabelError(f"`{name}` is unknown here. {self.near(name)}", at)
+        raise UnknownName(name, self.near(name), at)
 
     def near(self, name: str) -> str:
         """What may have been meant by an unknown name."""
