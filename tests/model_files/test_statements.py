@@ -98,7 +98,7 @@ def test_labels_of_several_charts(here: Path) -> None:
     assert lines(faults) == [4, 5]
     assert all("its labels use hoot, on. Write data=[hoot, on]" in fault for fault in faults)
     named = text.replace('default="A"', 'default="A", data=[hot]')
-    assert lines(told(here, n=named)) == [4, 4, 5, 5], "which name is meant is another question at each place"
+    assert lines(told(here, m=named)) == [4, 4, 5, 5], "which name is meant is another question at each place"
 
 
 def test_what_the_page_about_labels_shows(here: Path) -> None:
