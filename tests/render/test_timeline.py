@@ -342,6 +342,19 @@ class TestNeeds:
         assert "Cause: the inputs" not in story_part(long_trace()).body
         assert "whatever its inputs" in story_part(changed(drawn(), needed=())).body
 
+    def test_many_states_entered_at_once_are_told_in_a_line(self) -> None:
+        first, *rest = drawn().ticks
+        [enters, *_] = [t for t in first.transitions if not t.order]
+        fires = replace(enters, order=2)
+        for count, folded in ((6, 0), (7, 1)):
+            tick = replace(first, transitions=(fires, *[enters] * count))
+            page = str(story_part(replace(drawn(), ticks=(tick, *rest))).body)
+            assert page.count("told-starts") == folded
+            assert page.count("default →") == count and page.count("(transition 2)") == 1
+            if folded:
+                assert "7 states are entered by default transitions" in page
+                assert "(transition 2)" not in page.partition("<details")[2].partition("</details>")[0]
+
 
 class TestTruths:
     def test_known_truths_are_taken(self) -> None:
