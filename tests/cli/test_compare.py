@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -101,12 +102,21 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
     assert len(list(tmp_path.glob("crosscheck_*.py"))) == 1 and [m["test"] for m in found[1:]] == [""] * (
         len(found) - 1
     )
-    assert f"({len(found)} deviations)" in said
+    parts = Counter(one["decided_by"] for one in found)
+    assert len(parts) < len(found) and f"({len(found)} deviations of {len(parts)} parts)" in said
+    assert "is looked for with --causes." in said
     assert f"Deviations with a small run and a test: 1 of {len(found)}; " in said
     assert f"all of them with --mismatches {len(found)}." in said
-    for one in found[1:]:
-        assert f"first in step {one['step']} of {one['origin']}" in said
-        assert f"{one['decided_by']}: {one['differences'][0]['output']} " in said
+    others = Counter(one["decided_by"] for one in found[1:])
+    for number, one in enumerate(found[1:], 2):
+        part, output = one["decided_by"], one["differences"][0]["output"]
+        if others[part] > 1:
+            more = "more " if part == found[0]["decided_by"] else ""
+            assert said.count(f"{part} differs in {others[part]} {more}ways: ") == 1
+            assert f" {number}. {output} " in said
+        else:
+            assert f"first in step {one['step']} of {one['origin']}" in said
+            assert f"✗ {number}. board1, {part}: {output} " in said
     assert compare(*asked, "--mismatches", str(len(found))) is Exit.FAILED
     assert "all of them with" not in " ".join(capsys.readouterr().out.split())
 

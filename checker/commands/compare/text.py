@@ -84,9 +84,8 @@ def report(of: CrosscheckReport) -> str:
     for failure in result.failures:
         if not failure.steps:
             lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
-    if others := result.mismatches[result.small :]:
-        for number, one in enumerate(others, result.small + 1):
-            lines += ["", *_in_short(number, one, of)]
+    for part in _by_part(result):
+        lines += ["", *(_in_short(*part[0], of) if len(part) == 1 else _together(part, of))]
     lines += _causes(of)
     return "\n".join([*lines, *([""] if lines else []), *_summary(of)])
 
@@ -108,6 +107,34 @@ def _cause(failure: Failure) -> str:
 def _wrapped(text: str, indent: str = "") -> str:
     width, then = text_width(), indent + "  "
     return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
+
+
+def _by_part(result: CompareResult) -> Iterator[list[tuple[int, StepMismatch]]]:
+    """The mismatches without inputs with their numbers, those of one chart or block together."""
+    found: dict[str, list[tuple[int, StepMismatch]]] = {}
+    for number, one in enumerate(result.mismatches[result.small :], result.small + 1):
+        found.setdefault(_part(one), []).append((number, one))
+    yield from found.values()
+
+
+def _part(mismatch: StepMismatch) -> str:
+    assert mismatch.deviation is not None, "what a search found"
+    return mismatch.deviation.scope.part
+
+
+def _together(found: Sequence[tuple[int, StepMismatch]], of: CrosscheckReport) -> Iterator[str]:
+    """What one chart or block does otherwise, a line for each deviation: often it is one cause."""
+    board, part = found[0][1].board.name, _part(found[0][1])
+    more = "more " if part in map(_part, of.result.mismatches[: of.result.small]) else ""
+    yield _wrapped(f"✗ {board}, {part or 'what no part decides'} differs in {len(found)} {more}ways:")
+    for number, one in found:
+        deviation = one.deviation
+        assert deviation is not None, "what a search found"
+        says = headline(deviation).removeprefix(f"{part}: ")
+        runs = counted(deviation.runs, "run", "runs")
+        yield _wrapped(f"{number}. {says}, in {runs}{_mark(one, of)}", "   ")
+        for move in deviation.scope.charts:
+            yield _wrapped(move.removeprefix(f"{part}: "), "      ")
 
 
 def _in_short(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
@@ -267,6 +294,8 @@ def _summary(report: CrosscheckReport) -> Iterator[str]:
             f"Deviations with a small run and a test: {result.small} of {len(result.mismatches)}; "
             f"all of them with --mismatches {len(result.mismatches)}.", "  "
         )  # fmt: skip
+    if len(set(map(_part, result.mismatches))) < len(result.mismatches) and not report.causes:
+        yield _wrapped("Which of them have one cause, and which one, is looked for with --causes.", "  ")
     if result.uncompared:
         yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
     if result.missing and not _given_up(result):
@@ -302,7 +331,9 @@ def _differences(of: CrosscheckReport) -> Iterator[str]:
     if result.mismatches:
         known = len(result.mismatches) - of.judgement.unknown if of.judgement.found else 0
         told = f", {known} of them known" if known else ""
-        yield counted(len(result.mismatches), "deviation", "deviations") + told
+        parts = len(set(map(_part, result.mismatches)))
+        of_parts = f" of {counted(parts, 'part', 'parts')}" if parts < len(result.mismatches) else ""
+        yield counted(len(result.mismatches), "deviation", "deviations") + of_parts + told
     if result.failures:
         gave_up = ", then the search gave up" if _given_up(result) else ""
         yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"
