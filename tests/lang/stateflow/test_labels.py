@@ -406,6 +406,4 @@ def test_a_chart_without_data_is_one_fault_with_all_names() -> None:
     told, other = Chart("C", [a, b], default="A").label_faults
     assert "the chart has no data, and its labels use door, heat, level." in told
     assert "Write data=[door, heat, level]" in told
-        "the chart has no data, and its labels use door, heat, level. Write data=[door, heat, level]" in told
-    )
     assert "transition 1 of B" in other
