@@ -9,6 +9,7 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
@@ -52,19 +53,39 @@ class StoredVerdict:
         return run == (isinstance(self.verdict, Violated) != isinstance(prop.form, Reachable))
 
 
-@dataclass(frozen=True)
 class StoredNames:
-    """The names of the entries about a property; None where there is none.
+    """The names of the entries about a property, each made when it is asked for; None where there is none."""
 
-    ``question``: of systems as they are written.  ``slice``: of the slices that the verdict depends on.
-    ``own``, of a system that has more runs than the one it stands for: of its slice alone, which is all that
-    a proof depends on.  ``before``: of the latest run that was found, whatever the charts were.
-    """
+    def __init__(self, store: "VerdictStore", prop: Property, systems: Mapping[str, System]) -> None:
+        self._store, self._prop, self._systems = store, prop, systems
 
-    question: str | None
-    slice: str | None
-    own: str | None = None
-    before: str | None = None
+    @cached_property
+    def question(self) -> str | None:
+        """Of systems as they are written."""
+        return self._store.question(self._prop, self._systems)
+
+    @cached_property
+    def slice(self) -> str | None:
+        """Of the slices that the verdict depends on, which take a while to make."""
+        return self._store.of_texts(self._prop, self._texts)
+
+    @cached_property
+    def own(self) -> str | None:
+        """Of a system that has more runs than the one it stands for: of its slice alone.
+
+        That is all that a proof depends on.
+        """
+        concrete = self._systems[self._prop.on].concrete
+        return self._store.of_texts(self._prop, self._texts[:1]) if concrete else None
+
+    @cached_property
+    def before(self) -> str | None:
+        """Of the latest run that was found, whatever the charts were."""
+        return self._store.about("before", self._prop)
+
+    @cached_property
+    def _texts(self) -> list[str | None]:
+        return self._store.texts(self._prop, self._systems)
 
     def fitting(self, found: Verdict, about_own: bool) -> tuple[str, ...]:
         """The names to keep a verdict under; ``about_own``: it is about the property's own system."""
@@ -106,17 +127,9 @@ class VerdictStore:
 
         Of a system that may leave a domain, what decides that belongs to it.
         """
-        return self._slice(prop, self._texts(prop, systems))
+        return self.of_texts(prop, self.texts(prop, systems))
 
-    def names(self, prop: Property, systems: Mapping[str, System]) -> "StoredNames":
-        """All names under which something about a property may be kept."""
-        texts = self._texts(prop, systems)
-        own = self._slice(prop, texts[:1]) if systems[prop.on].concrete else None
-        return StoredNames(
-            self.question(prop, systems), self._slice(prop, texts), own, self.about("before", prop)
-        )
-
-    def _texts(self, prop: Property, systems: Mapping[str, System]) -> list[str | None]:
+    def texts(self, prop: Property, systems: Mapping[str, System]) -> list[str | None]:
         """The keys of the slices of the systems; one that cannot be read has none."""
         from rovercheck.checker.store.slices import slice_text
 
@@ -129,7 +142,8 @@ class VerdictStore:
         except (NoKey, RecursionError, OSError):
             return [None]
 
-    def _slice(self, prop: Property, texts: Sequence[str | None]) -> str | None:
+    def of_texts(self, prop: Property, texts: Sequence[str | None]) -> str | None:
+        """The name of the entry about slices with these keys; None where one has none."""
         if None in texts:  # what cannot be read would not be part of the key
             return None
         return self.about("slice", replace(prop, on=""), *texts)

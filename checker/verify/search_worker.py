@@ -191,7 +191,7 @@ class SearchWorker:
 
     @staticmethod
     def _names(stored: "StoredTask", id: str, verdict: Verdict, system: str) -> tuple[str, ...]:
-        return stored.names[id].fitting(verdict, about_own=system == stored.task.system.name)
+        return stored.fitting(id, verdict, about_own=system == stored.task.system.name)
 
     def _certify(
         self,

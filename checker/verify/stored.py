@@ -1,7 +1,7 @@
 """What an earlier search found, in the place of a new one: runs replayed, and on request proofs certified."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from rovercheck.checker.certify.certificate import Certificate
@@ -14,7 +14,7 @@ from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Run, StoredRun, Unknown
+from rovercheck.checker.results.verdict import Run, StoredRun, Unknown, Verdict
 from rovercheck.checker.store.verdict_json import Definite
 from rovercheck.checker.store.verdicts import StoredNames, StoredVerdict, VerdictStore
 from rovercheck.checker.system.initial import require_initial_tick
@@ -49,12 +49,14 @@ class StoredTask:
     systems: Mapping[str, System]
     store: VerdictStore
     names: Mapping[str, StoredNames]
+    as_written: set[str] = field(default_factory=set)
+    """Properties of which the verdict is kept for the systems as they are written."""
 
     @staticmethod
     def of(task: Task, systems: Mapping[str, System], store: VerdictStore) -> "StoredTask":
         """Raises ``ModelError`` for a system that has no run or is not well formed."""
         require_initial_tick(lowered(task.system))
-        names = {p.id: store.names(p, systems) for p in task.properties}
+        names = {p.id: StoredNames(store, p, systems) for p in task.properties}
         return StoredTask(task, systems, store, names)
 
     def kept(self, prop: Property) -> StoredVerdict | None:
@@ -63,15 +65,28 @@ class StoredTask:
         Where there is none, an earlier run that the property's system still has, if it still shows the same.
         """
         names = self.names[prop.id]
-        for name in (names.question, names.slice, names.own):
-            found = self.store.read(name)
-            fits = found is not None and found.fits(prop, self.systems)
-            verdict = replayed(found, prop, self.systems) if found is not None and fits else None
-            if found is not None and verdict is not None:
-                return replace(found, verdict=verdict)
-            if found is not None:
-                self.store.remove(name)
-        return self._before(prop)
+        found = self._under(names.question, prop)
+        if found is not None:
+            self.as_written.add(prop.id)
+            return found
+        return self._under(names.slice, prop) or self._under(names.own, prop) or self._before(prop)
+
+    def _under(self, name: str | None, prop: Property) -> StoredVerdict | None:
+        found = self.store.read(name)
+        fits = found is not None and found.fits(prop, self.systems)
+        verdict = replayed(found, prop, self.systems) if found is not None and fits else None
+        if found is not None and verdict is not None:
+            return replace(found, verdict=verdict)
+        if found is not None:
+            self.store.remove(name)
+        return None
+
+    def fitting(self, id: str, found: Verdict, about_own: bool) -> tuple[str, ...]:
+        """The names to keep a verdict under; ``about_own``: it is about the property's own system."""
+        question = self.names[id].question
+        if id in self.as_written and question is not None:
+            return (question,)  # it is under the others too
+        return self.names[id].fitting(found, about_own)
 
     def _before(self, prop: Property) -> StoredVerdict | None:
         """The earlier run, up to where it reaches the goal; whether there is a shorter one is not known."""
