@@ -9,6 +9,7 @@ import pytest
 from rovercheck.checker.cache import entries
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.report import graphs, kept_page
+from rovercheck.checker.commands.report import rover as of_rover
 from rovercheck.checker.commands.report import run as reviewing
 from rovercheck.checker.commands.report.kept_page import PageKeeper
 from rovercheck.checker.commands.shared import dependencies
@@ -17,11 +18,22 @@ from rovercheck.checker.commands.shared.told import ToldVerdict
 from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.explain import explanation
 from rovercheck.checker.explain.unrolled_run import OutOfTime
+from rovercheck.checker.results.verdict import Violated
 from rovercheck.checker.store import parts
+from rovercheck.checker.store.parts import UNKEPT
 from rovercheck.checker.store.verdicts import store as store_of
+from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.expected import Expected
+from tests.render.zoo import long_trace
 
 pytestmark = pytest.mark.usefixtures("folder", "no_child")
 CHEAP = ["PB1-15", "PB1-11"]
+BROKEN = Violated(long_trace(), "bmc")
+FINDINGS = [CheckedProperty(Result(catalogue()["PB1-15"], BROKEN, "relay"), Expected())]
+    CheckedProperty(Result(catalogue()["PB1-15"], Violated(long_trace(), "bmc"), "relay"), Expected())
+]
 
 
 def page(folder: Path, *more: str) -> tuple[Exit, str]:
@@ -134,3 +146,16 @@ def test_a_cause_that_was_not_found_in_time_is_not_looked_for_again_for_as_long(
     assert len(asked) == 1
     page(tmp_path, "--document", "B", "--explain")
     assert len(asked) == 2, "as long as it takes is longer"
+
+
+def test_repairs_are_not_decided_again_while_no_file_has_changed(
+    tmp_path: Path, counted: Callable[..., list[object]]
+) -> None:
+    """Which is kept, whatever is asked of the page."""
+    store = parts.PartStore(store_of(AUTO, Limits()))
+    made = of_rover.kept_remedies(FINDINGS, store)
+    decided = counted(of_rover, "remedies")
+    assert of_rover.kept_remedies(FINDINGS, store) == made != ()
+    assert not decided
+    of_rover.kept_remedies(FINDINGS, UNKEPT)
+    assert len(decided) == 1

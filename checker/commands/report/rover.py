@@ -1,8 +1,12 @@
 """What only the rover has on its review page: interpretations, repairs, tests that are kept."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict
 from functools import partial
+from typing import Any
 
+from rovercheck.checker.cache.entries import MEANINGLESS
 from rovercheck.checker.commands.report.data import Extras
 from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
 from rovercheck.checker.commands.shared.dependencies import of_verdict
@@ -14,6 +18,7 @@ from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Covered, Edit, InterpretationRow, Remedy
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.store.parts import PartStore
+from rovercheck.checker.store.tree import tree_key
 from rovercheck.checker.store.verdicts import store
 from rovercheck.checker.system.instrument.goals import KEPT
 from rovercheck.checker.system.instrument.watch import watched
@@ -30,7 +35,7 @@ from rovercheck.spec_model.repairs import Repair, repairs
 
 def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool, kept: PartStore) -> Extras:
     """All of it; repairs only if wanted and for the charts as specified."""
-    mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
+    mended = kept_remedies(found, kept) if with_repairs and not variant.name else ()
     taken = tuple(
         interpretation(one, variant.choices.get(one.id, one.default)) for one in ambiguities().values()
     )
@@ -46,6 +51,25 @@ def interpretation(one: Ambiguity, taken: str) -> InterpretationRow:
 def _meaning(one: Ambiguity, choice: str) -> str:
     why = one.not_modelled.get(choice)
     return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
+
+
+def kept_remedies(found: Sequence[CheckedProperty], kept: PartStore) -> tuple[Remedy, ...]:
+    """The repairs of what was found violated: as they are kept while no file has changed, or decided."""
+    violated = sorted(c.result.property.id for c in found if c.verdict.word == "violated")
+    name = kept.name("remedies", tree_key(), violated)
+    with suppress(*MEANINGLESS):
+        return tuple(_remedy_of(row) for row in kept.read(name))
+    made = tuple(remedies(found))
+    if all(word != "unknown" for one in made for _, word, _ in one.proofs):
+        kept.write(name, [asdict(one) for one in made])
+    return made
+
+
+def _remedy_of(row: Mapping[str, Any]) -> Remedy:
+    """A repair from its fields as JSON."""
+    edits = tuple(Edit(e["part"], e["place"], tuple(e["before"]), tuple(e["after"])) for e in row["edits"])
+    pairs = {n: tuple(tuple(one) for one in row[n]) for n in ("proofs", "gives_up")}
+    return Remedy(**{**row, **pairs, "edits": edits})
 
 
 def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
