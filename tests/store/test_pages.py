@@ -32,8 +32,6 @@ pytestmark = pytest.mark.usefixtures("folder", "no_child")
 CHEAP = ["PB1-15", "PB1-11"]
 BROKEN = Violated(long_trace(), "bmc")
 FINDINGS = [CheckedProperty(Result(catalogue()["PB1-15"], BROKEN, "relay"), Expected())]
-    CheckedProperty(Result(catalogue()["PB1-15"], Violated(long_trace(), "bmc"), "relay"), Expected())
-]
 
 
 def page(folder: Path, *more: str) -> tuple[Exit, str]:
