@@ -35,6 +35,7 @@ def campaign_page(record: CampaignRecord) -> str:
         has_others=has_others,
         state_class=state_class,
         tables=tables,
+        in_words=in_words,
     )
     return page(one_line(record.title), [Part(Markup(body), (style,))])
 
@@ -49,6 +50,20 @@ def segments(lane: OutputLane, which: str) -> list[tuple[str, int, str]]:
     """Successive ticks with the same text: the text, how many ticks, and how they are marked."""
     told = [(str(getattr(m, which)), _mark(m)) for m in lane.moments]
     return [(text, len(list(group)), mark) for (text, mark), group in groupby(told)]
+
+
+def in_words(lane: OutputLane, words: CampaignWords) -> list[str]:
+    """A lane as text, for paper and small screens, on which no pointer shows what a narrow bar holds."""
+    told = [(m.expected or "?", m.recorded or "?") for m in lane.moments]
+    found, start = [], 0
+    for (expected, recorded), group in groupby(told):
+        end = start + len(list(group)) - 1
+        first, last = lane.moments[start].tick, lane.moments[end].tick
+        start = end + 1
+        ticks = f"{words.tick} {first}" if first == last else f"{words.tick}s {first} to {last}"
+        same = expected == recorded
+        found.append(f"{ticks}: {expected}" if same else f"{ticks}: {expected}, {words.recorded} {recorded}")
+    return found
 
 
 def _mark(moment: OutputMoment) -> str:
