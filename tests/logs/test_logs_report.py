@@ -89,8 +89,8 @@ def test_the_document_says_what_the_page_shows_and_each_tick_is_of_one_finding(
     assert ran(["check-log", str(EXAMPLES), "--json"]) == 1
     document = json.loads(capfd.readouterr().out)
     validate(document, published("conform-1"))
-    campaign, seen = document["campaign"], set()
-    drawn = 0
+    campaign, drawn = document["campaign"], 0
+    seen: set[tuple[str, int]] = set()
     for finding in campaign["findings"]:
         assert finding["says"] in html_unescape(reports.html)
         for lane in finding["timeline"]:
