@@ -146,7 +146,8 @@ class BoardRecord:
             windows = [ExcerptWindow(d) for d in own]
             if not windows:
                 continue
-            lanes = excerpts(board, kept.run.recording, windows, self._every, may_freeze=False)
+            run = kept.run.up_to(max(w.last for w in windows) + 2)  # late is known a step later
+            lanes = excerpts(board, run.recording, windows, self._every, may_freeze=False)
             for window, drawn in zip(windows, lanes, strict=True):
                 marked = any(m.differs for lane in drawn for m in lane.moments)
                 found[id(window.deviation)] = drawn if marked else whole_lanes(kept.run, window)
