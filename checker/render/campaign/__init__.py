@@ -12,6 +12,7 @@ from rovercheck.checker.results.campaign import (
     CampaignFinding,
     CampaignOccurrence,
     CampaignRecord,
+    CampaignRecording,
     CampaignWords,
     OutputLane,
     OutputMoment,
@@ -36,6 +37,7 @@ def campaign_page(record: CampaignRecord) -> str:
         state_class=state_class,
         tables=tables,
         in_words=in_words,
+        rows=rows,
     )
     return page(one_line(record.title), [Part(Markup(body), (style,))])
 
@@ -44,6 +46,13 @@ def tables(findings: Sequence[CampaignFinding]) -> list[list[tuple[int, Campaign
     """The findings with their numbers, as the columns of tables that a sheet of paper is wide enough for."""
     numbered = list(enumerate(findings, 1))
     return [numbered[start : start + COLUMNS] for start in range(0, len(numbered), COLUMNS)] or [[]]
+
+
+def rows(record: CampaignRecord, columns: Sequence[tuple[int, CampaignFinding]]) -> list[CampaignRecording]:
+    """The recordings of a table: all of them, or of those that were chosen the ones with a finding of it."""
+    if record.of is None:
+        return list(record.recordings)
+    return [r for r in record.recordings if any(f.sighting(r.name) for _, f in columns)]
 
 
 def segments(lane: OutputLane, which: str) -> list[tuple[str, int, str]]:
