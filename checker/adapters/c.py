@@ -25,18 +25,24 @@ def start(what: str, board: "Board", limits: AdapterLimits = LIMITS) -> Implemen
 
     Raises ``ImplementationError`` if it cannot be compiled or started.
     """
-    written, _, file = what.partition(",map=")
-    path = Path(written)
+    path, file = sources_and_map(what)
     if not path.exists():
         raise ImplementationError(
-            f"c:{what}: there is no {written}; write a C file, a folder or a shared object."
+            f"c:{what}: there is no {path}; write a C file, a folder or a shared object."
         )
     if not (path.is_dir() or path.suffix == ".c" or is_library(path)):
         raise ImplementationError(
             f"c:{what}: {path.name} is neither a C file (.c), a folder nor a shared object."
         )
-    c = read(Path(file) if file else _beside(path), board)
+    c = read(file, board)
     return CompiledC(f"c:{what}", path, c, board, limits)
+
+
+def sources_and_map(what: str) -> tuple[Path, Path]:
+    """What an address without its kind names: sources or a shared object, and the mapping file."""
+    written, _, file = what.partition(",map=")
+    path = Path(written)
+    return path, Path(file) if file else _beside(path)
 
 
 class CompiledC(Process):

@@ -9,6 +9,7 @@ from rovercheck.checker.compare.coverage import (
     TransitionCoverage,
     transitions,
 )
+from rovercheck.checker.compare.notable_runs import NotableRuns
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, DeviationTally
 from rovercheck.checker.conformance.follower import Situation
 from rovercheck.spec_model.abstraction import Board
@@ -48,13 +49,14 @@ class CompareStage:
 class Failure:
     """A run in which the implementation crashed, hung or answered without meaning, in its last step.
 
-    It has no steps where that happened at power-up.
+    It has no steps where that happened at power-up.  ``number``: which of the runs it is, from 1.
     """
 
     board: Board
     origin: str
     message: str
     steps: tuple[ComparedStep, ...] = ()
+    number: int = 0
 
     @property
     def tick(self) -> int:
@@ -89,6 +91,8 @@ class CompareResult:
     undecided: Mapping[tuple[str, str], int] = field(default_factory=dict)
     situations: frozenset[Situation] = frozenset()
     tally: DeviationTally = field(default_factory=DeviationTally)
+    notable: NotableRuns = field(default_factory=NotableRuns)
+    """The runs in which a deviation is met first, or for longest."""
 
     @property
     def met(self) -> Mapping[DeviationScope, Deviation]:

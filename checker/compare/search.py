@@ -12,6 +12,7 @@ from rovercheck.checker.adapters.implementation import Implementation, Implement
 from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, answers, differing, played
 from rovercheck.checker.compare.coverage import TransitionCoverage
 from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.notable_runs import NotableRuns
 from rovercheck.checker.compare.result import (
     ALLOWED,
     FIXED,
@@ -84,6 +85,7 @@ class CompareSearch:
     watched: bool = False
     deviating: Callable[[RecordedRun], None] = lambda run: None
     tally: DeviationTally = field(default_factory=DeviationTally)
+    notable: NotableRuns = field(default_factory=NotableRuns)
     failures: list[Failure] = field(default_factory=list)
     doing: str = FIXED
     tried: dict[str, int] = field(default_factory=lambda: {FIXED: 0, RANDOM: 0})
@@ -132,6 +134,7 @@ class CompareSearch:
             dict(self._undecided),
             frozenset(self._situations),
             self.tally,
+            self.notable,
         )
 
     def _mismatches(self) -> list[StepMismatch]:
@@ -204,7 +207,7 @@ class CompareSearch:
     ) -> tuple[Values, ...]:
         """Keep the failure; what was answered in the steps before it, whose outputs were lost."""
         failed = tuple(steps[: error.step])
-        self.failures.append(Failure(self.env.board, origin, str(error), failed))
+        self.failures.append(Failure(self.env.board, origin, str(error), failed, self.coverage.runs))
         with suppress(ImplementationError):  # it failed earlier this time
             return self._answers(steps[: error.step - 1]) if error.step > 1 else ()
         return ()
@@ -219,6 +222,8 @@ class CompareSearch:
         for part in found.undecided:
             self._undecided[part.part, part.because] += 1
         self.deviating(run)
+        if groups:
+            self.notable.add(self.coverage.runs, run, groups.values())
         for one in groups.values():
             self._runs[run.origin, one.first.tick] = run.up_to(one.first.tick)
         self.tally.add(groups.values(), evidence or WholeEvidence(), run.origin)

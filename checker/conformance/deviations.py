@@ -1,6 +1,6 @@
 """Distinct deviations: mismatches grouped by what differs and where, in many recordings."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from hashlib import sha256
@@ -124,6 +124,8 @@ class Grouping:
         self._frozen: list[LogMismatch] = []
         self._since: dict[tuple[str, ...], DeviationSpan] = {}
         """The stretch in which the outputs of a piece are now."""
+        self.told: Callable[[LogMismatch, DeviationScope], None] | None = None
+        """Is told each piece of a mismatch with the scope of its group, once that is known."""
 
     def tick(self, tick: int, found: Sequence[LogMismatch], any_output_changed: bool) -> None:
         """The mismatches of a tick; every tick must be given, also those without."""
@@ -181,6 +183,9 @@ class Grouping:
         ticks = {m.tick for m in stayed}
         outputs = sorted({d.output.name for d in every.values()})
         scope = DeviationScope("frozen", "", tuple((name, "", "") for name in outputs))
+        if self.told is not None:
+            for mismatch in stayed:
+                self.told(mismatch, scope)
         first = replace(stayed[0], part="")
         span = DeviationSpan(len(ticks), first.tick, first.line)
         whole = Deviation(
@@ -194,6 +199,8 @@ class Grouping:
         goes_on = kind == "value" and last == mismatch.tick - 1 and pairs == mismatch.key
         if scope is None or not goes_on:
             scope = scope_of(mismatch)
+        if self.told is not None:
+            self.told(mismatch, scope)
         if kind == "value":
             self._running[part] = (mismatch.tick, mismatch.key, scope)
         times = 0 if goes_on else 1
@@ -338,6 +345,20 @@ def _merged(group: Sequence[Deviation], scope: DeviationScope) -> Deviation:
     )
 
 
+def joins(whole: Deviation, scope: DeviationScope, outputs: Iterable[str]) -> bool:
+    """Whether a conclusion from whole recordings stands for a group of one, of that scope and outputs."""
+    inside = whole.scope.kind != "value" and set(outputs) <= set(whole.outputs)
+    return inside and whole.scope.part in ("", scope.part)
+
+
+def whole_of(every: Sequence[Deviation], scope: DeviationScope, outputs: Iterable[str]) -> Deviation | None:
+    """The deviation over all recordings that stands for a group of one: itself, or what joined it."""
+    named = set(outputs)
+    same = [d for d in every if d.scope == scope] or [d for d in every if joins(d, scope, named)]
+    alike = (d for d in every if (d.scope.part, d.scope.differences) == (scope.part, scope.differences))
+    return next(iter(same), None) or next(alike, None)
+
+
 __all__ = [
     "Deviation",
     "DeviationKind",
@@ -346,5 +367,7 @@ __all__ = [
     "DeviationTally",
     "Grouping",
     "WholeEvidence",
+    "joins",
     "scope_of",
+    "whole_of",
 ]

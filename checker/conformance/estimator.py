@@ -59,7 +59,11 @@ class StateEstimator:
 
     def differing(self, outcome: BeliefOutcome, logged: Known) -> list[int]:
         """Positions of the outputs that are not as the charts require."""
-        rows = zip(outcome.outputs, logged, self._apart, strict=True)
+        return self.apart(outcome.outputs, logged)
+
+    def apart(self, required: Known, logged: Known) -> list[int]:
+        """Positions of the outputs that are others than those required."""
+        rows = zip(required, logged, self._apart, strict=True)
         return [i for i, (wanted, got, apart) in enumerate(rows) if differs(wanted, got, apart)]
 
     def kept(self, outcomes: Sequence[BeliefOutcome]) -> tuple[Known, ...]:

@@ -70,7 +70,7 @@ class BoardFollower:
             o.var.name: (o.var.init if from_power_up else None,) for cone in parts for o in cone.outputs
         }
         self._previous: tuple[Raw | None, ...] = ()
-        self._grouping = Grouping(may_freeze)
+        self.grouping = Grouping(may_freeze)
         self._changes = _OnTime()
         self._swaps = _Swaps(parts)
 
@@ -126,7 +126,7 @@ class BoardFollower:
         if found and self.heard is not None:
             self.heard(found)
         self._swaps.note(self._trackers, fetches, i, bool(found))
-        self._grouping.tick(tick, found, outputs != self._previous)
+        self.grouping.tick(tick, found, outputs != self._previous)
         self._previous = outputs
         if self._met is not None and len(self._met) > MOST_REMEMBERED:
             self._note_met()
@@ -137,7 +137,7 @@ class BoardFollower:
         self._note_met()
         evidence = WholeEvidence(frozenset(self._changes.on_time), *self._swaps.evidence())
         tally = DeviationTally()
-        tally.add(self._grouping.end(), evidence)
+        tally.add(self.grouping.end(), evidence)
         undecided = tuple(t.undecided for t in self._trackers if t.undecided is not None)
         read = {v.name for t in self._trackers for v in t.cone.system.inputs}
         return Behaviour(

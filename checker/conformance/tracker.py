@@ -73,6 +73,10 @@ class Tracker:
         )
         """The outputs of the charts' own run in the tick before, where they leave no choice."""
 
+    def astray(self, logged: Known) -> list[int]:
+        """Positions of the outputs that are not those of the charts' own run in the tick of the last row."""
+        return self._follow.apart(self.required, logged) if self.required else []
+
     def step(self, row: TrackedRow) -> LogMismatch | None:
         """Take one row; what differs, if no behaviour explains it."""
         if self.given_up:

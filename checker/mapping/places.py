@@ -69,6 +69,10 @@ class CLeaves:
         """The assignments to a place in the code, also to the whole of what it is in."""
         return self._of(leaf.path, leaf.reached)
 
+    def assigned_at(self, path: str) -> list[CAssignment]:
+        """The assignments to a path, whether or not it is declared."""
+        return self._of(path, ())
+
     def copied_from(self, leaf: CLeaf) -> Iterator[tuple[CLeaf, CAssignment]]:
         """Places whose value the code hands on to this one, directly or by way of one variable of its own."""
         by_path = {one.path: one for one in self.all}

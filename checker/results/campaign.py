@@ -1,24 +1,51 @@
-"""What a campaign of logs found, as data: every format is written from this one record."""
+"""What a campaign of logs or runs found, as data: every format is written from this one record."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 from typing import Literal
 
+from rovercheck.spec_model.lang.place import Place
+
 CampaignWord = Literal["new", "known", "expired", "changed", "unexpected"]
 """Of a finding; ``unexpected``: a property that is broken, though expected to be true."""
 
-RecordingState = Literal["conforms", "deviates", "undecided", "not read", "internal error"]
+FindingKind = Literal["deviation", "property", "failure"]
+"""``failure``: an implementation did not answer as it must."""
+
+RecordingState = Literal["conforms", "deviates", "undecided", "not survived", "not read", "internal error"]
+
+
+@dataclass(frozen=True)
+class CampaignWords:
+    """What things are called: a recording, and several; a tick; what was recorded in it."""
+
+    one: str
+    many: str
+    tick: str
+    recorded: str
+
+    def ticks(self, number: int) -> str:
+        """``1 tick``, ``1,204 ticks``."""
+        return f"{number:,} {self.tick}{'s' * (number != 1)}"
+
+
+OF_LOGS = CampaignWords("log", "logs", "tick", "logged")
+OF_RUNS = CampaignWords("run", "runs", "step", "implementation")
 
 
 @dataclass(frozen=True)
 class OutputMoment:
-    """An output in one tick, in words; empty where it is not known."""
+    """An output in one tick, in words; empty where it is not known.
+
+    ``differs``: by the finding that is shown; ``other``: by another one alone, or as what follows from one.
+    """
 
     tick: int
     expected: str
     recorded: str
     differs: bool = False
+    other: bool = False
 
 
 @dataclass(frozen=True)
@@ -31,18 +58,16 @@ class OutputLane:
 
 @dataclass(frozen=True)
 class CampaignOccurrence:
-    """Where something is met: the tick, its time from the start in ms, the line, for how many ticks."""
+    """Where something is met: the tick, its time from the start in ms, for how many ticks.
+
+    ``line`` is that of the file, 0 where it is met in no file.
+    """
 
     recording: str
     tick: int
     ms: int
-    line: int
+    line: int = 0
     ticks: int = 1
-
-    @property
-    def lasts(self) -> str:
-        """How long, in words."""
-        return "1 tick" if self.ticks == 1 else f"{self.ticks:,} ticks"
 
 
 @dataclass(frozen=True)
@@ -79,7 +104,16 @@ class CampaignFinding:
     lanes: tuple[OutputLane, ...] = ()
     more_lanes: int = 0
     """Outputs that differ, too, and are not drawn."""
+    undrawn: str = ""
+    """Why there are no lanes, where there might be some."""
     terms: KnownTerms | None = None
+    cause: str = ""
+    """The change of the charts that explains it, in words, where one was looked for and found."""
+    places: tuple[Place, ...] = ()
+    """Where to look for it, the best first: lines that assign the output, a map, or the recording."""
+    key: str = ""
+    """What it is called wherever and whenever it is met, known or not; by default its id."""
+    kind: FindingKind = "deviation"
 
     @property
     def first(self) -> CampaignOccurrence:
@@ -117,23 +151,29 @@ class CampaignRecording:
 
 @dataclass(frozen=True)
 class CampaignRecord:
-    """All that is told of a campaign; ``noun`` is what its recordings are called."""
+    """All that is told of a campaign.
+
+    ``recordings`` are all of them, or those of ``of`` in which some finding is first or worst.
+    """
 
     title: str
-    noun: tuple[str, str]
+    words: CampaignWords
     charts: str
     recordings: Sequence[CampaignRecording]
     findings: Sequence[CampaignFinding]
     notes: Sequence[str] = ()
-    """What came of known deviations, besides being there."""
+    """What else is to be said: what came of known deviations, which recordings are shown."""
+    of: int | None = None
+    gaps: Sequence[tuple[str, str]] = ()
+    """What was compared in no recording, and why."""
 
     @property
     def headline(self) -> str:
-        """``3 logs, 1 not read; 2 deviations new, 1 known``."""
-        one, many = self.noun
-        number = len(self.recordings)
+        """``3 logs, 1 not read; 3 findings: 2 new, 1 known``."""
+        one, many = self.words.one, self.words.many
+        number = len(self.recordings) if self.of is None else self.of
         unread = sum(r.state in ("not read", "internal error") for r in self.recordings)
-        parts = [f"{number} {one if number == 1 else many}" + (f", {unread} not read" if unread else "")]
+        parts = [f"{number:,} {one if number == 1 else many}" + (f", {unread} not read" if unread else "")]
         words = [f.word for f in self.findings]
         told = [f"{words.count(w)} {w}" for w in dict.fromkeys(words)]
         count = f"{len(words)} finding{'s' * (len(words) != 1)}"
@@ -142,6 +182,6 @@ class CampaignRecord:
 
 
 __all__ = [
-    "CampaignFinding", "CampaignOccurrence", "CampaignRecord", "CampaignRecording",
-    "CampaignSighting", "KnownTerms", "OutputLane", "OutputMoment",
+    "OF_LOGS", "OF_RUNS", "CampaignFinding", "CampaignOccurrence", "CampaignRecord", "CampaignRecording",
+    "CampaignSighting", "CampaignWords", "FindingKind", "KnownTerms", "OutputLane", "OutputMoment",
 ]  # fmt: skip

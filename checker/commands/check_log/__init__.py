@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from rovercheck.checker.commands.shared.campaign_files import CampaignFiles, reporting
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import (
     VariantOptions,
@@ -27,33 +28,20 @@ class LogOptions:
     verbose: bool = False
     known: Path | None = None
     write_known: Path | None = None
-    html: Path | None = None
-    markdown: Path | None = None
 
 
 @click.command(short_help="Check logs recorded on a board.")
 @reading_logs
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
-@click.option(
-    "--html",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="Write what was found there, as one page.",
-)
-@click.option(
-    "--markdown",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="The same as Markdown, for a pull request or an issue.",
-)
+@reporting
 @knowing
 @changing
 @modelling
 @quietly
 @gathered(LogOptions, "options")
-def check_log(place: Path, options: LogOptions, charts: VariantOptions) -> Exit:
+def check_log(place: Path, options: LogOptions, files: CampaignFiles, charts: VariantOptions) -> Exit:
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
     from rovercheck.checker.commands.check_log.run import check_log as run
 
-    return run(place, options, charts.variant())
+    return run(place, options, charts.variant(), files)

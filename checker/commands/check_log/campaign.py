@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from rovercheck.checker.commands.shared.known import KnownBook
-from rovercheck.checker.conformance.deviations import Deviation, DeviationTally
+from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, joins
 from rovercheck.checker.conformance.known import Judged, KnownDeviation, KnownJudgement, shows
 from rovercheck.checker.logs import LogResult
 
@@ -60,7 +60,11 @@ class LogCampaign:
     def _of_group(self, board: str, group: Deviation) -> Judged:
         """Of one that was joined with others, or is so over all logs."""
         found = self.judgements[board].found
-        whole = [d.scope for d in self.deviations[board] if d.scope == group.scope or joins(d, group)]
+        whole = [
+            d.scope
+            for d in self.deviations[board]
+            if d.scope == group.scope or joins(d, group.scope, group.outputs)
+        ]
         return found[whole[0]] if whole else Judged("new", group.scope.id(board))
 
     def unknown(self, log: LogResult) -> int:
@@ -70,10 +74,4 @@ class LogCampaign:
 
 def _groups(log: LogResult, deviation: Deviation) -> list[Deviation]:
     """The groups of a log that a deviation joins."""
-    return [one for one in log.behaviour.tally.groups.values() if joins(deviation, one)]
-
-
-def joins(whole: Deviation, group: Deviation) -> bool:
-    """Whether a conclusion from whole logs stands for a group of one."""
-    inside = whole.scope.kind != "value" and set(group.outputs) <= set(whole.outputs)
-    return inside and whole.scope.part in ("", group.scope.part)
+    return [one for one in log.behaviour.tally.groups.values() if joins(deviation, one.scope, one.outputs)]

@@ -8,6 +8,7 @@ from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
+from rovercheck.checker.commands.shared.campaign_document import CampaignDocument, campaign_document
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.known import KnownRow, known_rows
 from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
@@ -16,6 +17,7 @@ from rovercheck.checker.io.document import Count, Ordinal
 from rovercheck.checker.logs import LogResult, as_on_record
 from rovercheck.checker.logs.invalid import InvalidCell
 from rovercheck.checker.logs.monitors import LogVerdict, LogWord
+from rovercheck.checker.results.campaign import CampaignRecord
 
 Line = Annotated[int, Ge(2)]
 """Of the file, from 1, after the names of its columns; of Parquet the row plus 1."""
@@ -171,6 +173,8 @@ class LogDocument(LogRow, LogHead):
 
     known: list[KnownRow]
     """The known deviations of the board that were named."""
+    campaign: CampaignDocument
+    """What ``--html`` shows of it."""
 
 
 class FolderDocument(LogHead):
@@ -180,24 +184,29 @@ class FolderDocument(LogHead):
     deviations: list[CampaignDeviation]
     """Each once over all logs, of each board what explains most first."""
     known: list[KnownRow]
+    campaign: CampaignDocument
+    """What ``--html`` shows of them."""
 
 
 CheckLogDocument = LogDocument | FolderDocument
 """What ``rovercheck check-log --json`` prints: of a log what was found in it, of a folder that of each."""
 
 
-def log_document(found: LogResult, charts: str, code: Exit, campaign: LogCampaign) -> LogDocument:
+def log_document(
+    found: LogResult, charts: str, code: Exit, campaign: LogCampaign, record: CampaignRecord
+) -> LogDocument:
     """All of a log; ``charts``: how the charts differ from those specified, in words."""
     return {
         "schema": "rovercheck/conform/1",
         "exit": code,
         **_log(found, charts, campaign),
         "known": _known(campaign),
+        "campaign": campaign_document(record),
     }
 
 
 def folder_document(
-    found: Mapping[str, Outcome], charts: str, code: Exit, campaign: LogCampaign
+    found: Mapping[str, Outcome], charts: str, code: Exit, campaign: LogCampaign, record: CampaignRecord
 ) -> FolderDocument:
     """All of a folder: what came of each log, by its name."""
     return {
@@ -208,6 +217,7 @@ def folder_document(
             _over_all(board, one, campaign) for board, every in campaign.deviations.items() for one in every
         ],
         "known": _known(campaign),
+        "campaign": campaign_document(record),
     }
 
 

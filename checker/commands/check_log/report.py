@@ -1,28 +1,29 @@
 """The record of a campaign of logs, from which its reports are written."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from rovercheck.checker.commands.check_log.campaign import LogCampaign, joins
+from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
-from rovercheck.checker.commands.shared.deviation_text import headline
+from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.conformance.deviations import Deviation
-from rovercheck.checker.conformance.excerpt import MOST_LANES, ExcerptWindow, excerpts
+from rovercheck.checker.conformance.excerpt import ExcerptWindow, excerpts
 from rovercheck.checker.diagnosis.logs import logged_run
 from rovercheck.checker.logs import ColumnMap, LogError, LogResult
 from rovercheck.checker.results.campaign import (
+    OF_LOGS,
     CampaignFinding,
     CampaignOccurrence,
     CampaignRecord,
     CampaignRecording,
     CampaignSighting,
-    KnownTerms,
     OutputLane,
     RecordingState,
 )
 from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.system import TICK_MS
 
 
@@ -40,61 +41,42 @@ class LogReport:
     def record(self) -> CampaignRecord:
         """The record.  A log that cannot be read again has no timeline."""
         every = [(board, d) for board, found in self.campaign.deviations.items() for d in found]
-        lanes = self._lanes(every)
-        findings = [self._finding(board, d, lanes.get(n, ())) for n, (board, d) in enumerate(every)]
+        drawn = self._lanes(every)
+        findings = [self._finding(board, d, drawn.get(n, ())) for n, (board, d) in enumerate(every)]
         notes = [line for j in self.campaign.judgements.values() for line in known_lines(j)]
         return CampaignRecord(
-            f"Logs of {self.folder.name}", ("log", "logs"), self.charts,
+            f"{self.folder.name}: logs beside the charts", OF_LOGS, self.charts,
             [_recording(name, one) for name, one in self.found.items()],
             [*findings, *self._broken()], notes,
         )  # fmt: skip
 
-    def _lanes(self, every: list[tuple[str, Deviation]]) -> dict[int, tuple[OutputLane, ...]]:
-        lanes: dict[int, tuple[OutputLane, ...]] = {}
+    def _lanes(self, every: list[tuple[str, Deviation]]) -> dict[int, tuple[OutputLane, ...] | str]:
+        """The timeline of each deviation by its number, or why it has none."""
+        lanes: dict[int, tuple[OutputLane, ...] | str] = {}
         known = self.boards or boards()
         for name in dict.fromkeys(d.origin for _, d in every):
             own = [(n, board, d) for n, (board, d) in enumerate(every) if d.origin == name]
             board = own[0][1]
-            windows = [ExcerptWindow(d.first.tick, d.outputs) for _, _, d in own]
+            windows = [ExcerptWindow(d) for _, _, d in own]
             try:
                 run = logged_run(self.folder / name, self.how, board, known).run
-                found = excerpts(known[board], run, windows)
-            except (LogError, OSError):  # changed or gone meanwhile
+                found = excerpts(known[board], run, windows, self.campaign.deviations[board])
+            except (LogError, OSError) as error:  # changed or gone meanwhile
+                lanes |= {n: f"{name} could not be read again: {error}" for n, _, _ in own}
                 continue
             lanes |= {n: one for (n, _, _), one in zip(own, found, strict=True)}
         return lanes
 
-    def _finding(self, board: str, one: Deviation, lanes: tuple[OutputLane, ...]) -> CampaignFinding:
-        judgement = self.campaign.judgements[board]
-        judged = judgement.of(one)
-        terms = [KnownTerms(k.reason, k.owner, k.until) for k, _ in judgement.known if k.id == judged.id]
-        return CampaignFinding(
-            judged.id, board, judged.word, headline(one), tuple(_evidence(one)),
-            tuple(self._sightings(board, one)), lanes, max(0, len(one.outputs) - MOST_LANES),
-            terms[0] if terms else None,
-        )  # fmt: skip
-
-    def _sightings(self, board: str, one: Deviation) -> Iterator[CampaignSighting]:
-        for log in self.campaign.logs:
-            groups = log.behaviour.tally.groups.values() if log.layout.board == board else ()
-            own = [g for g in groups if self._whole(board, g) is one]
-            if own:
-                first = min((g.first for g in own), key=lambda m: m.tick)
-                worst = max((g.worst for g in own), key=lambda w: (w.ticks, -w.tick))
-                yield CampaignSighting(
-                    log.name,
-                    CampaignOccurrence(log.name, first.tick, first.tick * TICK_MS, first.line),
-                    CampaignOccurrence(log.name, worst.tick, worst.tick * TICK_MS, worst.line, worst.ticks),
-                    sum(g.count for g in own),
-                    sum(g.times for g in own),
-                )
-
-    def _whole(self, board: str, group: Deviation) -> Deviation | None:
-        """The deviation over all logs that stands for a group of one: itself, or what it was joined with."""
-        every, scope = self.campaign.deviations[board], group.scope
-        same = [d for d in every if d.scope == scope] or [d for d in every if joins(d, group)]
-        alike = (d for d in every if (d.scope.part, d.scope.differences) == (scope.part, scope.differences))
-        return next(iter(same), None) or next(alike, None)
+    def _finding(self, board: str, one: Deviation, drawn: tuple[OutputLane, ...] | str) -> CampaignFinding:
+        every = self.campaign.deviations[board]
+        of_board = [log for log in self.campaign.logs if log.layout.board == board]
+        groups = ((log.name, log.behaviour.tally.groups.values()) for log in of_board)
+        met = sightings(one, groups, every, TICK_MS, lines=True)
+        found = deviation_finding(board, one, self.campaign.judgements[board], OF_LOGS, met)
+        place = Place(str(self.folder / found.first.recording), found.first.line)
+        if isinstance(drawn, str):
+            return replace(found, undrawn=drawn, places=(place,))
+        return replace(found, lanes=drawn, places=(place,))
 
     def _broken(self) -> Iterator[CampaignFinding]:
         """Properties that are broken though expected to hold, each once."""
@@ -108,20 +90,13 @@ class LogReport:
                 at = CampaignOccurrence(log.name, v.first.tick, v.first.tick * TICK_MS, v.first.line, 0)
                 met.setdefault(key, []).append(CampaignSighting(log.name, at, at, v.count, 1))
                 says[key] = f"{v.prop.id} is {v.word}: {v.prop.text}"
-        for (board, id), sightings in met.items():
-            yield CampaignFinding(id, board, "unexpected", says[board, id], (), tuple(sightings))
-
-
-def _evidence(one: Deviation) -> Iterator[tuple[str, str]]:
-    for d in one.differences[:MOST_LANES]:
-        expected, logged = d.values()
-        yield "expected", f"{d.output.name}: {' or '.join(expected) or 'a value'}; logged {logged}"
-    if len(one.differences) > MOST_LANES:
-        yield "and", f"{len(one.differences) - MOST_LANES} more pairs of values"
-    if one.first.moves:
-        yield "charts", "; ".join(one.first.moves)
-    if one.first.inputs:
-        yield "inputs", ", ".join(f"{n} = {v}" for n, v in one.first.inputs.items())
+        for (board, id), shown in met.items():
+            found = CampaignFinding(
+                id, board, "unexpected", says[board, id], (), tuple(shown),
+                key=f"{board} {id}", kind="property",
+            )  # fmt: skip
+            at = found.first
+            yield replace(found, places=(Place(str(self.folder / at.recording), at.line),))
 
 
 def _recording(name: str, one: Outcome) -> CampaignRecording:

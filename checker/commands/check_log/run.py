@@ -7,16 +7,18 @@ from pathlib import Path
 from rovercheck.checker.commands.check_log import LogOptions
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome, page, summary
+from rovercheck.checker.commands.shared.campaign_files import NO_FILES, CampaignFiles
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.commands.shared.known import KnownBook, known_book
 from rovercheck.checker.commands.shared.logs import column_map, logs_in, no_logs
-from rovercheck.checker.commands.shared.output import err, out, possible, write
+from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.compare.variants import boards_of_model, varied
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine
 from rovercheck.checker.model.variant import Variant
+from rovercheck.checker.results.campaign import CampaignRecord
 from rovercheck.spec_model.lang.system import TICK_MS
 
 GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
@@ -32,6 +34,12 @@ class LogRequest:
     charts: str = ""
     against: LogReference | None = None
     book: KnownBook = field(default_factory=lambda: KnownBook({}, ""))
+    files: CampaignFiles = NO_FILES
+
+    @property
+    def reports(self) -> bool:
+        """Whether anything is written from the record of the campaign."""
+        return self.options.as_json or self.files.wanted
 
     def examined(self, path: Path) -> LogResult:
         """What one log says.  Raises ``LogError``."""
@@ -49,20 +57,19 @@ class LogRequest:
             return LogFault(error_message(error))
 
 
-def check_log(place: Path, options: LogOptions, variant: Variant) -> Exit:
+def check_log(place: Path, options: LogOptions, variant: Variant, files: CampaignFiles = NO_FILES) -> Exit:
     """Check one log or all logs of a folder against the charts, changed or not.
 
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
-    possible(options.html)
-    possible(options.markdown)
+    files.possible()
     changed = variant.name or variant.own is not None
     against = _against(variant, options.system) if changed else None
     book = KnownBook({}, "")
     if options.known is not None or options.write_known is not None:
         every = against.boards if against else varied(variant.choices, variant.repair)
         book = known_book(options.known, options.write_known, every, variant.name)
-    asked = LogRequest(column_map(options.map_file), options, variant.name, against, book)
+    asked = LogRequest(column_map(options.map_file), options, variant.name, against, book, files)
     return _folder(place, asked) if place.is_dir() else _log(place, asked)
 
 
@@ -73,14 +80,16 @@ def _log(place: Path, asked: LogRequest) -> Exit:
         raise UsageError(f"{place}: {error}") from error
     campaign = LogCampaign([found], asked.book)
     _finish(campaign)
-    _report({place.name: found}, campaign, place.absolute().parent, asked)
+    record = _record({place.name: found}, campaign, place.absolute().parent, asked) if asked.reports else None
     code = _code_of(found, campaign)
-    if asked.options.as_json:
+    if asked.options.as_json and record is not None:
         from rovercheck.checker.commands.check_log.document import log_document
 
-        print(json_text(log_document(found, asked.charts, code, campaign)))
+        print(json_text(log_document(found, asked.charts, code, campaign, record)))
     else:
         out.print(page(found, asked.options.verbose, asked.charts, campaign), markup=False)
+    if record is not None:
+        asked.files.write(record)
     return code
 
 
@@ -92,21 +101,14 @@ def _finish(campaign: LogCampaign) -> None:
         err.print(said, markup=False)
 
 
-def _report(found: Mapping[str, Outcome], campaign: LogCampaign, folder: Path, asked: LogRequest) -> None:
-    """Write the reports that were asked for.  Raises ``UsageError``."""
-    html, markdown = asked.options.html, asked.options.markdown
-    if html is None and markdown is None:
-        return
+def _record(
+    found: Mapping[str, Outcome], campaign: LogCampaign, folder: Path, asked: LogRequest
+) -> CampaignRecord:
+    """What reports are written from."""
     from rovercheck.checker.commands.check_log.report import LogReport
-    from rovercheck.checker.render.campaign import campaign_page
-    from rovercheck.checker.render.campaign.markdown import campaign_markdown
 
     charts = asked.against.boards if asked.against is not None else None
-    record = LogReport(found, campaign, folder, asked.how, asked.charts, charts).record()
-    if html is not None:
-        write(campaign_page(record), html)
-    if markdown is not None:
-        write(campaign_markdown(record), markdown)
+    return LogReport(found, campaign, folder, asked.how, asked.charts, charts).record()
 
 
 def _against(variant: Variant, name: str | None) -> LogReference:
@@ -141,14 +143,16 @@ def _folder(folder: Path, asked: LogRequest) -> Exit:
             found[log.name] = asked.outcome(log)
     campaign = LogCampaign([one for one in found.values() if isinstance(one, LogResult)], asked.book)
     _finish(campaign)
-    _report(found, campaign, folder.absolute(), asked)
+    record = _record(found, campaign, folder.absolute(), asked) if asked.reports else None
     code = _code(list(found.values()), campaign)
-    if asked.options.as_json:
+    if asked.options.as_json and record is not None:
         from rovercheck.checker.commands.check_log.document import folder_document
 
-        print(json_text(folder_document(found, asked.charts, code, campaign)))
+        print(json_text(folder_document(found, asked.charts, code, campaign, record)))
     else:
         out.print(summary(found, asked.charts, campaign), markup=False)
+    if record is not None:
+        asked.files.write(record)
     return code
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from rovercheck.checker.commands.shared.campaign_files import CampaignFiles, reporting
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import (
     VariantOptions,
@@ -87,12 +88,19 @@ class ComparisonOptions:
     metavar="DIR",
     help="Write a test for each of these mismatches there, not here.",
 )
+@reporting
 @knowing
 @changing
 @modelling
 @quietly
 @gathered(ComparisonOptions, "options")
-def compare(options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions) -> Exit:
+def compare(
+    options: ComparisonOptions,
+    as_json: bool,
+    output: Path | None,
+    files: CampaignFiles,
+    charts: VariantOptions,
+) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
     from rovercheck.checker.commands.compare.run import CrosscheckOptions
     from rovercheck.checker.commands.compare.run import compare as run
@@ -114,4 +122,4 @@ def compare(options: ComparisonOptions, as_json: bool, output: Path | None, char
         options.write_known,
         options.seconds if options.causes else None,
     )
-    return run(asked, output, as_json)
+    return run(asked, output, as_json, files)

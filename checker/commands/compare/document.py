@@ -8,6 +8,7 @@ from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.compare.text import CrosscheckReport, shown
 from rovercheck.checker.commands.diagnose.document import ChangeRow, change_row
+from rovercheck.checker.commands.shared.campaign_document import CampaignDocument, campaign_document
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.known import KnownRow, known_rows
 from rovercheck.checker.compare.beside import StepMismatch
@@ -17,6 +18,7 @@ from rovercheck.checker.conformance.known import FoundWord
 from rovercheck.checker.diagnosis.causes import DeviationCause
 from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.checker.io.document import Count, Ordinal, Text
+from rovercheck.checker.results.campaign import CampaignRecord
 from rovercheck.spec_model.abstraction import Value
 
 CompareWord = Literal["mismatch", "failure", "known", "conforms", "inconclusive"]
@@ -157,15 +159,18 @@ class CompareDocument(TypedDict):
     """False after an interruption: this is what was found so far."""
     exit: Exit
     results: list[ComparedRow]
+    campaign: CampaignDocument
+    """What ``--html`` shows of it."""
 
 
-def document(reports: Sequence[CrosscheckReport], code: Exit) -> CompareDocument:
+def document(reports: Sequence[CrosscheckReport], code: Exit, record: CampaignRecord) -> CompareDocument:
     """The results as JSON."""
     return {
         "schema": "rovercheck/crosscheck/1",
         "complete": not any(r.result.interrupted for r in reports),
         "exit": code,
         "results": [_row(r) for r in reports],
+        "campaign": campaign_document(record),
     }
 
 

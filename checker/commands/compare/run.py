@@ -8,6 +8,7 @@ from pathlib import Path
 from rovercheck.checker.adapters import start
 from rovercheck.checker.adapters.implementation import ImplementationError
 from rovercheck.checker.commands.compare.text import CrosscheckReport, report, shown
+from rovercheck.checker.commands.shared.campaign_files import NO_FILES, CampaignFiles
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.known import KnownBook, known_book
 from rovercheck.checker.commands.shared.output import counted, err, out, write
@@ -54,11 +55,14 @@ class CrosscheckOptions:
         return pick_variant(self.chosen, self.repair, (), self.model)
 
 
-def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
+def compare(
+    asked: CrosscheckOptions, output: Path | None, as_json: bool, wanted: CampaignFiles = NO_FILES
+) -> Exit:
     """Compare one board, or both, and write a test for every mismatch and failure that is shown in full.
 
     Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
     """
+    wanted.possible()
     named = _boards(asked)
     own = asked.variant.own is not None
     every = {b.name: b for b in named} if own else varied(asked.variant.choices, asked.variant.repair)
@@ -87,10 +91,15 @@ def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exi
     for said in book.write():
         err.print(said, markup=False)
     code = worst(reports)
-    if as_json:
-        from rovercheck.checker.commands.compare.document import document
+    if as_json or wanted.wanted:
+        from rovercheck.checker.commands.compare.report import campaign_record
 
-        print(json_text(document(reports, code), ascii=True))
+        record = campaign_record(reports)
+        if as_json:
+            from rovercheck.checker.commands.compare.document import document
+
+            print(json_text(document(reports, code, record), ascii=True))
+        wanted.write(record)
     return code
 
 

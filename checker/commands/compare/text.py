@@ -22,7 +22,6 @@ from rovercheck.checker.conformance.known import KnownJudgement
 from rovercheck.checker.diagnosis.causes import DeviationCause
 from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.spec_model.abstraction import BoardSignal, Value
-from rovercheck.spec_model.lang.system import TICK_MS
 
 BEFORE = 3
 """Steps before that of the mismatch of which the transitions are told."""
@@ -95,11 +94,11 @@ def shown(result: CompareResult) -> Sequence[StepMismatch | Failure]:
     causes: dict[str, Failure] = {}
     for failure in result.failures:
         if failure.steps:
-            causes.setdefault(_cause(failure), failure)
+            causes.setdefault(failure_cause(failure), failure)
     return [*result.mismatches[: result.small], *causes.values()]
 
 
-def _cause(failure: Failure) -> str:
+def failure_cause(failure: Failure) -> str:
     """The message without the number of the step."""
     return failure.message.replace(f"step {failure.tick}:", "", 1)
 
@@ -162,7 +161,7 @@ def _mismatch(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iter
     assert deviation is not None, "what a search found"
     yield _wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
     yield _wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
-    time = f"{mismatch.tick * TICK_MS / 1000:g} s"
+    time = f"{mismatch.tick * board.tick_ms / 1000:g} s"
     run = "a small run" if mismatch.small else "that run"
     before = f"; other parts differ before, in {counted(mismatch.earlier, 'step', 'steps')}"
     yield _wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
@@ -181,7 +180,7 @@ def _met(deviation: Deviation, result: CompareResult) -> Deviation:
 
 
 def _failure(number: int, failure: Failure) -> Iterator[str]:
-    time = f"{failure.tick * TICK_MS / 1000:g} s"
+    time = f"{failure.tick * failure.board.tick_ms / 1000:g} s"
     yield _wrapped(
         f"✗ {number}. {failure.board.name}, step {failure.tick} = {time}: it does not answer as it must."
     )
@@ -286,7 +285,7 @@ def _summary(report: CrosscheckReport) -> Iterator[str]:
         )
     for stage in result.stages:
         if stage.because:
-            yield _wrapped(_untried(stage), "  ")
+            yield _wrapped(untried(stage), "  ")
     if _given_up(result):
         yield _wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
     if result.small < len(result.mismatches):
@@ -303,7 +302,7 @@ def _summary(report: CrosscheckReport) -> Iterator[str]:
         yield from (_wrapped(str(transition), "    ") for transition in result.missing)
 
 
-def _untried(stage: CompareStage) -> str:
+def untried(stage: CompareStage) -> str:
     """``Random runs: 21 of 240 tried; given up after 3 runs not survived.``"""
     tried = f"{stage.tried} tried, not all" if stage.of is None else f"{stage.tried} of {stage.of} tried"
     return f"{stage.kind.capitalize()}: {tried}; {stage.because}."

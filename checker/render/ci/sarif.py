@@ -5,6 +5,7 @@ of the charts at which its transitions are written.
 """
 
 import json
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
@@ -48,7 +49,9 @@ def located(place: Place | None, name: str, message: str = "") -> Location:
 def _physical(place: Place) -> Location:
     path = place.path
     whole = Path(path).is_absolute()
-    artifact = {"uri": Path(path).as_uri()} if whole else {"uri": quote(path), "uriBaseId": "%SRCROOT%"}
+    artifact = (
+        {"uri": Path(path).as_uri()} if whole else {"uri": quote(os.fsencode(path)), "uriBaseId": "%SRCROOT%"}
+    )
     return {"artifactLocation": artifact, "region": {"startLine": place.line}}
 
 
@@ -133,6 +136,7 @@ def _values(changes: tuple[StoryChange, ...]) -> dict[str, dict[str, str]]:
 
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+SOURCES = {"%SRCROOT%": {"description": {"text": "The folder with the sources."}}}
 RESULTS = 5_000
 """Results that GitHub shows of a file."""
 TAGS = 20
@@ -170,17 +174,19 @@ def document(report: CiReport, witnesses: bool = False) -> dict[str, Any]:
     ]
     indices = {f.id: number for number, f in enumerate(rules)}
     run = {
-        "tool": {"driver": {"name": "rovercheck", "version": _version(), "rules": [_rule(f) for f in rules]}},
+        "tool": {
+            "driver": {"name": "rovercheck", "version": tool_version(), "rules": [_rule(f) for f in rules]}
+        },
         "automationDetails": {"id": f"rovercheck/{report.variant}"},
         "columnKind": "unicodeCodePoints",
-        "originalUriBaseIds": {"%SRCROOT%": {"description": {"text": "The folder with the sources."}}},
+        "originalUriBaseIds": SOURCES,
         "invocations": [_invocation(report, told[RESULTS:])],
         "results": [_result(f, indices[f.id]) for f in told[:RESULTS]],
     }
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
 
 
-def _version() -> str:
+def tool_version() -> str:
     try:
         return version("rovercheck")
     except PackageNotFoundError:  # used from its sources
