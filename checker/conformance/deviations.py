@@ -125,6 +125,11 @@ class Grouping:
         self._since: dict[tuple[str, ...], DeviationSpan] = {}
         """The stretch in which the outputs of a piece are now."""
 
+    @property
+    def waits(self) -> bool:
+        """Whether some mismatch is not settled yet; if not, ticks without one change nothing."""
+        return bool(self._late or self._frozen)
+
     def tick(self, tick: int, found: Sequence[LogMismatch], any_output_changed: bool) -> None:
         """The mismatches of a tick; every tick must be given, also those without."""
         if not found and not self._late and not self._frozen:
