@@ -1,7 +1,6 @@
 """Which values of an input are alike: the step of a part only compares it, with the same results."""
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
 
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.encode.python_text import text_of
@@ -59,4 +58,3 @@ def computed_with(expr: Expr, found: set[str]) -> None:
         return
     for child in children(expr):
         computed_with(child, found)
-

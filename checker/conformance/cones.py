@@ -22,11 +22,11 @@ from rovercheck.checker.system.partition import expressions, partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.abstraction import Board, Output
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
-from rovercheck.spec_model.lang.domain import Bool, Num
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.expr import Const, Expr, Var
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System, TransitionSystem
-from rovercheck.spec_model.lang.walk import children, variables
+from rovercheck.spec_model.lang.walk import variables
 
 MOST_VALUES = 300
 """Values of one variable that are tried where it is not known."""

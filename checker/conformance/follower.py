@@ -254,9 +254,7 @@ class _Fetch:
     outputs: tuple[Column, ...]
     last: Mapping[str, Raw | None]
 
-    def inputs(
-        self, i: int, before: Alternatives, now: Alternatives
-    ) -> tuple[tuple[Raw | None, ...], ...]:
+    def inputs(self, i: int, before: Alternatives, now: Alternatives) -> tuple[tuple[Raw | None, ...], ...]:
         """What each input may have been in row ``i``: of an output that deviates, also what it should be."""
         return tuple([self._input(one, i, before if one.earlier else now) for one in self.columns])
 
@@ -311,7 +309,13 @@ class _OnTime:
                 self._changed(tracker, before, wanted)
             before = wanted
 
-    def _changed(self, tracker: Tracker, before: Known, required: Known, wrong: Sequence[str] = ()) -> None:
+    def _changed(
+        self,
+        tracker: Tracker,
+        before: Sequence[Raw | None],
+        required: Sequence[Raw | None],
+        wrong: Sequence[str] = (),
+    ) -> None:
         if not before or not required:
             return
         for output, old, new in zip(tracker.cone.outputs, before, required, strict=True):

@@ -1,12 +1,20 @@
 """The steps of one part taken ahead, many rows at a time, where state and inputs are known and explain them.
 
-It says nothing that the tracker of the part would not say row by row: where a row is not explained at once, the
-tracker takes it.  Measured values are decimals meanwhile, with which Python computes quickly: exactly, as the
+It says nothing that the tracker of the part would not say row by row: where a row is not explained at
+once, the tracker takes it.  Measured values are decimals meanwhile, with which Python computes quickly: exactly, as the
 context traps what is not.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from decimal import Context, Decimal, DecimalException, DivisionByZero, Inexact, InvalidOperation, localcontext
+from decimal import (
+    Context,
+    Decimal,
+    DecimalException,
+    DivisionByZero,
+    Inexact,
+    InvalidOperation,
+    localcontext,
+)
 from fractions import Fraction
 
 from rovercheck.checker.conformance.alike import ValueLikes
@@ -236,4 +244,3 @@ def _plain(value: Number) -> Raw | None:
     if isinstance(value, Decimal):
         return Fraction(value)
     return None if value is None else value
-

@@ -116,7 +116,7 @@ class Tracker:
         return self._follow.apart
 
     def settle(self, outcome: BeliefOutcome, logged: Known, rows: int) -> None:
-        """Go on to after so many rows that steps from the certain state explain; these are of the last one."""
+        """Go on behind so many rows that steps from the certain state explain; the last of them."""
         left = self._follow.runs_left + MORE_RUNS * rows
         self._follow.runs_left = min(left, FIRST_RUNS + MORE_RUNS)
         owned, self._now = self.owned, (outcome.after,)

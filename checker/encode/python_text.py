@@ -6,9 +6,7 @@ from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import SIGNS, Op
 
 
-def text_of(
-    expr: Expr, read: Callable[[Var], str], operations: "Mapping[Op, Row] | None" = None
-) -> str:
+def text_of(expr: Expr, read: Callable[[Var], str], operations: "Mapping[Op, Row] | None" = None) -> str:
     """The text of a formula without temporal words; ``read`` gives that of a variable.
 
     It means what ``spec_model.lang.evaluate`` says; Python's truth values are as good as 0 and 1.
