@@ -1,8 +1,8 @@
 """The steps of one part taken ahead, many rows at a time, where state and inputs are known and explain them.
 
 It says nothing that the tracker of the part would not say row by row: where a row is not explained at
-once, the tracker takes it.  Measured values are decimals meanwhile, with which Python computes quickly: exactly, as the
-context traps what is not.
+once, the tracker takes it.  Measured values are decimals meanwhile, with which Python computes quickly:
+exactly, as the context traps what is not.
 """
 
 from collections.abc import Callable, Mapping, Sequence
