@@ -9,16 +9,24 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rovercheck.checker.conformance.program import BeliefOutcome, Known, ProgramOutput, Step, compiled
+from rovercheck.checker.conformance.alike import ValueLikes, computed_with
+from rovercheck.checker.conformance.program import (
+    BeliefOutcome,
+    Known,
+    ProgramOutput,
+    Step,
+    TakenStep,
+    compiled,
+)
 from rovercheck.checker.system.partition import expressions, partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.abstraction import Board, Output
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
-from rovercheck.spec_model.lang.domain import Bool, Num
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.expr import Const, Expr, Var
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System, TransitionSystem
-from rovercheck.spec_model.lang.walk import children, variables
+from rovercheck.spec_model.lang.walk import variables
 
 MOST_VALUES = 300
 """Values of one variable that are tried where it is not known."""
@@ -75,6 +83,24 @@ class LogCone:
     @cached_property
     def step(self) -> Step:
         return compiled(self.system, [ProgramOutput(o.var, o.unless) for o in self.outputs])
+
+    @cached_property
+    def quick_step(self) -> Step:
+        """The same step, of states and inputs that are known."""
+        return compiled(self.system, [ProgramOutput(o.var, o.unless) for o in self.outputs], known=True)
+
+    @cached_property
+    def ahead(self) -> dict[tuple[Known, Known], TakenStep]:
+        """Steps taken ahead, by state and inputs."""
+        return {}
+
+    @cached_property
+    def likes(self) -> tuple[ValueLikes | None, ...]:
+        """Of each input the values that are alike; ``None`` where the step does more than to compare it."""
+        used: set[str] = set()
+        for root in self._roots:
+            computed_with(root, used)
+        return tuple(None if v.name in used else ValueLikes(v, self._roots) for v in self.system.inputs)
 
     @cached_property
     def remembered(self) -> dict[tuple[Known, Known], BeliefOutcome]:
@@ -269,22 +295,12 @@ def _between(system: TransitionSystem, told: frozenset[str] | set[str]) -> froze
     """Measured inputs that are not told and are computed with, not only compared with limits."""
     found: set[str] = set()
     for root in expressions(system.step):
-        _computed_with(root, found)
+        computed_with(root, found)
     measured = {v.name for v in system.inputs if isinstance(v.domain.sort, Num) and not v.domain.dense}
     measured |= {
         v.name for v in system.inputs if isinstance(v.domain.sort, Num) and v.domain.sort.resolution != 1
     }
     return frozenset(found & measured - told)
-
-
-def _computed_with(expr: Expr, found: set[str]) -> None:
-    if isinstance(expr, Var):
-        found.add(expr.name)
-        return
-    if isinstance(expr, Apply) and isinstance(expr.sort, Bool) and len(variables(expr)) == 1:
-        return
-    for child in children(expr):
-        _computed_with(child, found)
 
 
 __all__ = ["ConeGroup", "LogCone", "LogPart", "cone_groups", "cones", "measured", "parts_of"]

@@ -127,6 +127,11 @@ class Grouping:
         self.told: Callable[[LogMismatch, DeviationScope], None] | None = None
         """Is told each piece of a mismatch with the scope of its group, once that is known."""
 
+    @property
+    def waits(self) -> bool:
+        """Whether some mismatch is not settled yet; if not, ticks without one change nothing."""
+        return bool(self._late or self._frozen)
+
     def tick(self, tick: int, found: Sequence[LogMismatch], any_output_changed: bool) -> None:
         """The mismatches of a tick; every tick must be given, also those without."""
         if not found and not self._late and not self._frozen:

@@ -34,7 +34,7 @@ class StateEstimator:
         self._step = cone.step
         self._state = {v.name: at for at, v in enumerate(cone.system.variables)}
         self._inputs = {v.name: at for at, v in enumerate(cone.system.inputs)}
-        self._apart = [_apart(o.signal.domain.sort, tolerance.get(o.name)) for o in cone.outputs]
+        self.apart = [_apart(o.signal.domain.sort, tolerance.get(o.name)) for o in cone.outputs]
         self._remembered: dict[tuple[Known, Known], tuple[tuple[BeliefOutcome, ...], frozenset[str]]] = {}
         self._asked: Counter[str] = Counter()
         self._guessed: set[str] = set()
@@ -59,11 +59,11 @@ class StateEstimator:
 
     def differing(self, outcome: BeliefOutcome, logged: Known) -> list[int]:
         """Positions of the outputs that are not as the charts require."""
-        return self.apart(outcome.outputs, logged)
+        return self.others(outcome.outputs, logged)
 
-    def apart(self, required: Known, logged: Known) -> list[int]:
+    def others(self, required: Known, logged: Known) -> list[int]:
         """Positions of the outputs that are others than those required."""
-        rows = zip(required, logged, self._apart, strict=True)
+        rows = zip(required, logged, self.apart, strict=True)
         return [i for i, (wanted, got, apart) in enumerate(rows) if differs(wanted, got, apart)]
 
     def kept(self, outcomes: Sequence[BeliefOutcome]) -> tuple[Known, ...]:

@@ -7,12 +7,15 @@ from itertools import permutations
 from rovercheck.checker.conformance.cones import LogCone, measured
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, Grouping, WholeEvidence
 from rovercheck.checker.conformance.estimator import MOST_REMEMBERED, differs
+from rovercheck.checker.conformance.lookahead import LookAhead, plain_outcome
 from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
-from rovercheck.checker.conformance.program import BeliefOutcome
+from rovercheck.checker.conformance.program import BeliefOutcome, Known, TakenStep
 from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 
 Column = Sequence[Raw | None]
+Alternatives = Mapping[str, tuple[Raw | None, ...]]
+"""Every value that an output may have had, of those that deviate or are not known."""
 Watch = Callable[[Tracker, TrackedRow, LogMismatch | None], None]
 """Told of every row of every part, as it is followed."""
 
@@ -61,54 +64,103 @@ class BoardFollower:
         self._watch = watch
         self.heard: Callable[[Sequence[LogMismatch]], None] | None = None
         """Is told the mismatches of each row that has some."""
-        self._met: dict[int, tuple[Tracker, BeliefOutcome]] | None = {} if watched else None
+        self._met: dict[int, tuple[Tracker, BeliefOutcome | TakenStep]] | None = {} if watched else None
         self._situations: set[Situation] = set()
         self._trackers = [Tracker(cone, tolerance, from_power_up) for cone in parts]
         self._outputs = {o.var.name: o.name for cone in parts for o in cone.outputs}
         self._known = seen | set(self._outputs)
-        self._before: dict[str, tuple[Raw | None, ...]] = {
-            o.var.name: (o.var.init if from_power_up else None,) for cone in parts for o in cone.outputs
+        self._ahead = [LookAhead(tracker) for tracker in self._trackers]
+        self._last: dict[str, Raw | None] = {
+            o.var.name: o.var.init if from_power_up else None for cone in parts for o in cone.outputs
         }
+        self._before: Alternatives = {}
+        """What outputs may have been in the row before that differ there, or are not known."""
         self._previous: tuple[Raw | None, ...] = ()
         self.grouping = Grouping(may_freeze)
         self._changes = _OnTime()
         self._swaps = _Swaps(parts)
 
     def block(self, block: LogBlock, seen: Mapping[str, Cells]) -> None:
-        """The rows of a block; ``seen`` are the inputs of the charts."""
+        """The rows of a block; ``seen`` are the inputs of the charts.
+
+        Rows that every part explains at once are taken together, the others one by one.
+        """
         columns = {name: block.values[signal] for name, signal in self._outputs.items()}
-        fetches = [self._fetch(t.cone, columns, seen) for t in self._trackers]
-        outputs = list(zip(*columns.values(), strict=True)) if columns else [()] * len(block)
-        for i in range(len(block)):
-            self._row(i, block, fetches, columns, outputs[i])
+        rows = _BlockRows(block, columns, [self._fetch(t.cone, columns, seen) for t in self._trackers])
+        for ahead, fetch in zip(self._ahead, rows.fetches, strict=True):
+            ahead.begin(fetch.whole, fetch.outputs)
+        by_itself = iter([*rows.by_itself(), len(block)])
+        end, i = next(by_itself), 0
+        while i < len(block):
+            while end < i:
+                end = next(by_itself)
+            together = i if self._watch is not None else self._together(i, end)
+            if together > i:
+                self._rows(i, together, rows)
+            else:
+                self._row(i, rows)
+            i = max(together, i + 1)
+        for ahead in self._ahead:
+            ahead.settle(len(block))
+        self._last = {name: column[-1] for name, column in columns.items()}
 
     def _fetch(self, cone: LogCone, columns: Mapping[str, Column], seen: Mapping[str, Cells]) -> "_Fetch":
         inputs = [
-            (v.name, v.name in cone.before, seen.get(v.name) or columns.get(v.name))
+            _FetchedInput(v.name, v.name in cone.before, seen.get(v.name) or columns.get(v.name))
             for v in cone.system.inputs
         ]
-        return _Fetch(tuple(inputs), tuple(columns[o.var.name] for o in cone.outputs))
+        return _Fetch(tuple(inputs), tuple(columns[o.var.name] for o in cone.outputs), self._last)
 
-    def _row(
-        self,
-        i: int,
-        block: LogBlock,
-        fetches: Sequence["_Fetch"],
-        columns: Mapping[str, Column],
-        outputs: tuple[Raw | None, ...],
-    ) -> None:
+    def _together(self, i: int, end: int) -> int:
+        """Up to which row every part explains all, from row ``i`` on."""
+        for ahead in self._ahead:
+            if end <= i:
+                return i
+            if not self._before or not ahead.reads(self._before):
+                end = min(end, ahead.reach(i, end))
+            else:
+                return i
+        return end
+
+    def _rows(self, start: int, end: int, rows: "_BlockRows") -> None:
+        """Rows that are taken ahead and explained by all parts."""
+        for ahead in self._ahead:
+            self._changes.among(ahead.tracker, ahead.outputs(start, end))
+            ahead.required(end - 1)
+        if self._met is not None:
+            for ahead in self._ahead:
+                self._meet(ahead, start, end)
+        self._swaps.agree(self._ahead, rows.fetches, start, end)
+        for i in range(start, end):
+            if not self.grouping.waits:
+                break
+            before = rows.outputs[i - 1] if i else self._previous
+            self.grouping.tick(rows.block.ticks[i], (), rows.outputs[i] != before)
+        self._previous, self._before = rows.outputs[end - 1], {}
+
+    def _row(self, i: int, rows: "_BlockRows") -> None:
+        block = rows.block
         tick, missing = block.ticks[i], block.missing[i]
         if missing:
-            self._before = dict.fromkeys(self._before, (None,))
+            self._before = dict.fromkeys(self._last, (None,))
         now: dict[str, tuple[Raw | None, ...]] = {}
         found: list[LogMismatch] = []
         meaningless = {name: texts[i] for name, texts in block.meaningless.items() if i in texts}
-        for tracker, fetch in zip(self._trackers, fetches, strict=True):
-            inputs = fetch.inputs(i, self._before, now)
-            logged = tuple([c[i] for c in fetch.outputs])
+        alone = bool(missing or meaningless) or self._watch is not None
+        for ahead, fetch in zip(self._ahead, rows.fetches, strict=True):
+            tracker, mismatch = ahead.tracker, None
             before = tracker.required
-            row = TrackedRow(tick, block.lines[i], missing, inputs, logged)
+            if i < ahead.stop and not alone and not ahead.reads(self._before) and not ahead.reads(now):
+                ahead.required(i)
+                self._changes.note(tracker, before, None)
+                if self._met is not None:
+                    self._meet(ahead, i, i + 1)
+                continue
+            ahead.settle(i)
+            logged = tuple([c[i] for c in fetch.outputs])
+            row = TrackedRow(tick, block.lines[i], missing, fetch.inputs(i, self._before, now), logged)
             mismatch = tracker.step(row)
+            ahead.after(i)
             if self._watch is not None:
                 self._watch(tracker, row, mismatch)
             self._changes.note(tracker, before, mismatch)
@@ -125,12 +177,22 @@ class BoardFollower:
                 now |= {d.output.var.name: _either(d) for d in mismatch.differences}
         if found and self.heard is not None:
             self.heard(found)
-        self._swaps.note(self._trackers, fetches, i, bool(found))
-        self.grouping.tick(tick, found, outputs != self._previous)
-        self._previous = outputs
+        self._swaps.note(self._trackers, rows.fetches, i, bool(found))
+        self.grouping.tick(tick, found, rows.outputs[i] != self._previous)
+        self._previous, self._before = rows.outputs[i], now
         if self._met is not None and len(self._met) > MOST_REMEMBERED:
             self._note_met()
-        self._before = {name: now.get(name) or (column[i],) for name, column in columns.items()}
+
+    def _meet(self, ahead: LookAhead, start: int, end: int) -> None:
+        """Note what rows that are taken ahead put to the test."""
+        assert self._met is not None
+        if not ahead.owned:
+            return
+        for one in ahead.steps(start, end):
+            if id(one) not in self._met:
+                self._met[id(one)] = ahead.tracker, one
+        if len(self._met) > MOST_REMEMBERED:
+            self._note_met()
 
     def end(self) -> Behaviour:
         """What was found in all."""
@@ -152,7 +214,8 @@ class BoardFollower:
 
     def _note_met(self) -> None:
         """What was put to the test and was as required, in words."""
-        for tracker, outcome in (self._met or {}).values():
+        for tracker, met in (self._met or {}).values():
+            outcome = met if isinstance(met, BeliefOutcome) else plain_outcome(met)
             for i, output in enumerate(tracker.cone.outputs):
                 required = None if measured(output) else outcome.outputs[i]
                 moves = tracker.differences.moves(i, [outcome])
@@ -175,26 +238,56 @@ def _either(difference: LogDifference) -> tuple[Raw | None, ...]:
 
 
 @dataclass(frozen=True)
+class _FetchedInput:
+    """Where an input of a part is found: its name, whether it is of the tick before, its column."""
+
+    name: str
+    earlier: bool
+    column: Column | None
+
+
+@dataclass(frozen=True)
 class _Fetch:
-    """Where the inputs and outputs of a part are found: its name, whether of the tick before, its column."""
+    """Where the inputs and outputs of a part are found; ``last``: what outputs were before the block."""
 
-    columns: tuple[tuple[str, bool, Column | None], ...]
+    columns: tuple[_FetchedInput, ...]
     outputs: tuple[Column, ...]
+    last: Mapping[str, Raw | None]
 
-    def inputs(
-        self, i: int, before: Mapping[str, tuple[Raw | None, ...]], now: Mapping[str, tuple[Raw | None, ...]]
-    ) -> tuple[tuple[Raw | None, ...], ...]:
+    def inputs(self, i: int, before: Alternatives, now: Alternatives) -> tuple[tuple[Raw | None, ...], ...]:
         """What each input may have been in row ``i``: of an output that deviates, also what it should be."""
-        return tuple(
-            [
-                before[name]
-                if earlier
-                else now[name]
-                if name in now
-                else (None if column is None else column[i],)
-                for name, earlier, column in self.columns
-            ]
+        return tuple([self._input(one, i, before if one.earlier else now) for one in self.columns])
+
+    def _input(self, one: _FetchedInput, i: int, other: Alternatives) -> tuple[Raw | None, ...]:
+        if one.name in other:
+            return other[one.name]
+        if one.earlier and not i:
+            return (self.last[one.name],)
+        return (None if one.column is None else one.column[i - one.earlier],)
+
+    def whole(self) -> list[Column]:
+        """The columns of the inputs where no output deviates."""
+        count = len(self.outputs[0])
+        nothing: Column = [None] * count
+        return [
+            [self.last[one.name], *(one.column or nothing)[:-1]] if one.earlier else one.column or nothing
+            for one in self.columns
+        ]
+
+
+class _BlockRows:
+    """The rows of a block, as the parts need them; ``outputs`` are all that is logged of a row."""
+
+    def __init__(self, block: LogBlock, columns: Mapping[str, Column], fetches: Sequence[_Fetch]) -> None:
+        self.block, self.fetches = block, fetches
+        self.outputs: list[Known] = (
+            list(zip(*columns.values(), strict=True)) if columns else [()] * len(block)
         )
+
+    def by_itself(self) -> list[int]:
+        """The rows behind missing steps, and those with an output that is no value."""
+        found = {i for i, missing in enumerate(self.block.missing) if missing}
+        return sorted(found.union(*self.block.meaningless.values()))
 
 
 class _OnTime:
@@ -204,10 +297,28 @@ class _OnTime:
         self.on_time: set[str] = set()
 
     def note(self, tracker: Tracker, before: Sequence[Raw | None], mismatch: LogMismatch | None) -> None:
-        if before == tracker.required or not before or not tracker.required:
+        if before != tracker.required:
+            wrong = mismatch.outputs if mismatch is not None else ()
+            self._changed(tracker, before, tracker.required, wrong)
+
+    def among(self, tracker: Tracker, required: Sequence[Known]) -> None:
+        """The same for successive rows that are explained, with what is required in each."""
+        before = tracker.required
+        for wanted in required:
+            if before is not wanted and before != wanted:
+                self._changed(tracker, before, wanted)
+            before = wanted
+
+    def _changed(
+        self,
+        tracker: Tracker,
+        before: Sequence[Raw | None],
+        required: Sequence[Raw | None],
+        wrong: Sequence[str] = (),
+    ) -> None:
+        if not before or not required:
             return
-        wrong = mismatch.outputs if mismatch is not None else ()
-        for output, old, new in zip(tracker.cone.outputs, before, tracker.required, strict=True):
+        for output, old, new in zip(tracker.cone.outputs, before, required, strict=True):
             if old != new and old is not None and new is not None and output.name not in wrong:
                 self.on_time.add(output.name)
 
@@ -234,7 +345,25 @@ class _Swaps:
             elif deviates and got[a] != due[a] and None not in (got[a], got[b], due[a], due[b]):
                 self._wrong.add((a, b))
 
+    def agree(self, ahead: Sequence[LookAhead], fetches: Sequence[_Fetch], start: int, end: int) -> None:
+        """The same for successive rows that are explained."""
+        if not self._alive:
+            return
+        got, due = dict[str, Column](), dict[str, Column]()
+        for name in {name for pair in self._alive for name in pair}:
+            p, k = self._places[name]
+            got[name] = fetches[p].outputs[k][start:end]
+            due[name] = [required[k] if required else None for required in ahead[p].outputs(start, end)]
+        for a, b in tuple(self._alive):
+            if _differ(due[b], got[a]) or _differ(due[a], got[b]):
+                self._alive.discard((a, b))
+
     def evidence(self) -> tuple[frozenset[tuple[str, str]], frozenset[tuple[str, str]]]:
         """Pairs that are swapped, and those that may be."""
         alive = frozenset(self._alive)
         return alive & self._wrong, alive
+
+
+def _differ(due: Column, got: Column) -> bool:
+    """Whether some value that is logged is not the one that is required."""
+    return due != got and any(differs(d, g, None) for d, g in zip(due, got, strict=True))

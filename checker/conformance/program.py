@@ -1,17 +1,22 @@
 """The step of a transition system as a Python function, which asks for what is not known when it needs it."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
+from decimal import Decimal
+from typing import Any, cast
 
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.encode.python_text import text_of
+from rovercheck.checker.encode.python_text import OPERATIONS, Row, text_of
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.expr import Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 Known = tuple[Raw | None, ...]
 """Values in the order of the variables; ``None``: any value."""
+
+Number = Any
+"""An integer, a fraction or a decimal."""
 
 Step = Callable[[Known, Known], tuple[Known, Known]]
 """From a state and inputs to the state after the step and the outputs (``None``: nothing required).
@@ -40,6 +45,10 @@ class BeliefOutcome:
     outputs: Known
 
 
+TakenStep = tuple[Known, Known, Known]
+"""The states before and after a step, and the outputs it requires; measured ones may be ``Decimal``."""
+
+
 @dataclass(frozen=True)
 class ProgramOutput:
     """A variable whose value after the step is asked for, unless a condition holds then."""
@@ -48,10 +57,14 @@ class ProgramOutput:
     unless: Expr
 
 
-def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput]) -> Step:
-    """The step of a system.  Values between those of a domain are stored like the others."""
+def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput], known: bool = False) -> Step:
+    """The step of a system.  Values between those of a domain are stored like the others.
+
+    ``known``: it is quicker, and must only be given values that are known; measured ones may be ``Decimal``
+    too, in a context that traps ``Inexact``.
+    """
     state, inputs = system.variables, system.inputs
-    names = _Names(_copied(system.step))
+    names = _Names(frozenset() if known else _copied(system.step), known)
     lines = [f"{_tuple(names.of(v) for v in state)} = state"] if state else []
     lines += [f"{_tuple(names.of(v) for v in inputs)} = inputs"] if inputs else []
     every = (*state, *inputs, *system.temps)
@@ -60,7 +73,7 @@ def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput]) -> Step
     shown = _tuple(f"None if {_value(o.unless, names)} else {names.of(o.var)}" for o in outputs)
     lines += [*body, f"return {_tuple(names.of(v) for v in state)}, {shown}"]
     source = "def step(state, inputs):\n" + "\n".join(f"    {line}" for line in lines)
-    scope: dict[str, object] = {"need": _need}
+    scope: dict[str, object] = {"need": _need, "mod": _mod, "div": _div}
     exec(compile(source, f"<step of {system.name}>", "exec"), scope)
     return cast(Step, scope["step"])
 
@@ -69,12 +82,36 @@ def _need(name: str) -> Raw:
     raise NeededInputs(name)
 
 
+def _mod(a: Number, b: Number) -> Number:
+    """``a % b``, which of decimals has the sign of a."""
+    rest = a % b
+    if isinstance(rest, Decimal) and rest and (rest < 0) != (b < 0):
+        return rest + b
+    return rest
+
+
+def _div(a: Number, b: Number) -> Number:
+    """``a // b``, which of decimals is rounded towards zero."""
+    if isinstance(a, Decimal) or isinstance(b, Decimal):
+        return int((a - _mod(a, b)) / b)
+    return a // b
+
+
+_OF_KNOWN: Mapping[Op, Row] = {
+    **OPERATIONS,
+    Op.MOD: lambda a, b: f"mod({a}, {b})",
+    Op.DIV: lambda a, b: f"div({a}, {b})",
+}
+"""Operators on values that may be decimals."""
+
+
 class _Names:
     """Python names of variables, and of those that hold where the value of a copy comes from."""
 
-    def __init__(self, copies: frozenset[str]) -> None:
+    def __init__(self, copies: frozenset[str], all_known: bool = False) -> None:
         self._known: dict[str, str] = {}
         self._copies = copies
+        self.all_known = all_known
 
     def of(self, var: Var) -> str:
         return self._known.setdefault(var.name, f"v{len(self._known)}")
@@ -118,7 +155,7 @@ def _statements(program: Sequence[Action], names: _Names) -> Iterator[str]:
 def _assigned(var: Var, value: Expr, names: _Names) -> Iterator[str]:
     """A copy of what is not known is not known either, and stems from the same."""
     inner = _inner(value)
-    if not isinstance(inner, Var):
+    if not isinstance(inner, Var) or names.all_known:
         yield f"{names.of(var)} = {_value(value, names)}"
     elif inner.name != var.name:
         yield f"{names.of(var)}, {names.origin(var)} = {names.of(inner)}, {names.origin(inner)}"
@@ -143,6 +180,9 @@ def _guards_a_domain(statement: If) -> bool:
 
 
 def _value(expr: Expr, names: _Names) -> str:
+    if names.all_known:
+        return text_of(expr, names.of, _OF_KNOWN)
+
     def read(var: Var) -> str:
         name = names.of(var)
         return f"({name} if {name} is not None else need({names.origin(var)}))"

@@ -75,7 +75,7 @@ class Tracker:
 
     def astray(self, logged: Known) -> list[int]:
         """Positions of the outputs that are not those of the charts' own run in the tick of the last row."""
-        return self._follow.apart(self.required, logged) if self.required else []
+        return self._follow.others(self.required, logged) if self.required else []
 
     def step(self, row: TrackedRow) -> LogMismatch | None:
         """Take one row; what differs, if no behaviour explains it."""
@@ -94,6 +94,42 @@ class Tracker:
         finally:
             logged = zip(self._told, row.logged, strict=True)
             self._last = {name: value for name, value in logged if value is not None}
+
+    # --- steps that were taken ahead ---
+
+    @property
+    def certain(self) -> bool:
+        """Whether the state is known, so that steps can be taken ahead."""
+        if len(self._now) != 1 or self._lost or self.given_up:
+            return False
+        return self.owned or (self._own is None and self._follow.runs_left >= FIRST_RUNS)
+
+    @property
+    def owned(self) -> bool:
+        """Whether the charts' own run explains the log so far."""
+        return self._own is self._now
+
+    @property
+    def state(self) -> Known:
+        """The state, which is certain."""
+        return self._now[0]
+
+    @property
+    def apart(self) -> Sequence[float | None]:
+        """How far each output may lie from the one required."""
+        return self._follow.apart
+
+    def settle(self, outcome: BeliefOutcome, logged: Known, rows: int) -> None:
+        """Go on behind so many rows that steps from the certain state explain; the last of them."""
+        left = self._follow.runs_left + MORE_RUNS * rows
+        self._follow.runs_left = min(left, FIRST_RUNS + MORE_RUNS)
+        owned, self._now = self.owned, (outcome.after,)
+        self._last = dict(zip(self._told, logged, strict=True))
+        self.exact = outcome if owned else None
+        if owned:
+            self._own, self.required = self._now, outcome.outputs
+
+    # --- rows, one by one ---
 
     def _exactly(self, row: TrackedRow) -> bool:
         """Take the step by itself where state and inputs are known, and it explains the row."""

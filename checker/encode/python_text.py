@@ -6,20 +6,22 @@ from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import SIGNS, Op
 
 
-def text_of(expr: Expr, read: Callable[[Var], str]) -> str:
+def text_of(expr: Expr, read: Callable[[Var], str], operations: "Mapping[Op, Row] | None" = None) -> str:
     """The text of a formula without temporal words; ``read`` gives that of a variable.
 
     It means what ``spec_model.lang.evaluate`` says; Python's truth values are as good as 0 and 1.
+    ``operations``: how operators are written, if not as in ``OPERATIONS``.
     """
+    written = OPERATIONS if operations is None else operations
     match expr:
         case Const(value, _):
             return f"({value})" if value < 0 else str(int(value))
         case Var():
             return read(expr)
         case Named(_, body):
-            return text_of(body, read)
+            return text_of(body, read, written)
         case Apply(op, args, _):
-            return OPERATIONS[op](*(text_of(a, read) for a in args))
+            return written[op](*(text_of(a, read, written) for a in args))
     raise AssertionError(f"{expr} speaks of the past")
 
 

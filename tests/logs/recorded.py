@@ -1,7 +1,7 @@
 """Logs for tests: the executable supervisors run with inputs held for a while, and faults put into them."""
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from io import StringIO
 from pathlib import Path
@@ -53,15 +53,18 @@ def value(signal: BoardSignal, random: Random) -> bool | int | float:
 
 def record(board: Board, steps: int, seed: int = 1, restless: float = 0.04) -> list[Row]:
     """The rows of a log: a step each, from power-up."""
+    return list(recorded(board, steps, seed, restless))
+
+
+def recorded(board: Board, steps: int, seed: int = 1, restless: float = 0.04) -> Iterator[Row]:
+    """The same rows one by one, as many as one likes."""
     random, firmware = Random(seed), Instance(FIRMWARE[board.name], places(board))
     at: Row = {s.name: HEALTHY.get(s.name, s.initial) for s in board.inputs}
     pauses = dict.fromkeys((s.name for s in board.inputs if s.stamp), 0)
-    rows: list[Row] = []
     for step in range(1, steps + 1):
         for signal in board.inputs:
             _renew(at, signal, 20 * step, pauses, random, restless)
-        rows.append({**at, **firmware.step(at)})
-    return rows
+        yield {**at, **firmware.step(at)}
 
 
 def _renew(
