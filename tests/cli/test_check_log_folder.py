@@ -2,6 +2,8 @@
 
 import json
 import os
+import signal
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,8 +13,12 @@ from jsonschema import Draft202012Validator
 
 from rovercheck.checker.adapters.c_build import compiler
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check_log import run as conforming
+from rovercheck.checker.commands.check_log import LogOptions, at_once
+from rovercheck.checker.commands.check_log import request as conforming
+from rovercheck.checker.commands.check_log.text import LogFault
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.logs import logs_in
+from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.logs import LogResult, examine
 from rovercheck.spec_model.abstraction import boards
 from tests.logs.recorded import Row, copied, long_log, written
@@ -252,3 +258,67 @@ def test_messages_of_a_compiler_are_printed_as_they_are(
     assert run(["compare", "--system", "board1", "--impl", f"c:{tmp_path}"]) is Exit.USAGE
     printed = capsys.readouterr().err
     assert harmless(printed) and ":1234:" in printed and ":smile: [red]" in printed
+
+
+# --- several processes -------------------------------------------------------------------------
+
+
+@pytest.fixture
+def several(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder of logs that several processes share, however short the logs are."""
+    for number, made in enumerate((good, deviating, with_a_wrong_cell, unusable, deviating)):
+        made(tmp_path)
+        for log in [one for one in tmp_path.iterdir() if not one.name.startswith("log")]:
+            log.rename(tmp_path / f"log{number}{log.suffix}")
+    monkeypatch.setattr(at_once, "SMALL", 0)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "options",
+    [(), ("--json",), ("--interpret", "S43=AND"), ("--system", "board1"), ("--known", "known.toml")],
+    ids=lambda options: " ".join(options) or "plain",
+)
+def test_several_processes_say_what_one_says(
+    options: tuple[str, ...], several: Path, tmp_path_factory: pytest.TempPathFactory,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    known = tmp_path_factory.mktemp("known") / "known.toml"
+    assert check_log(several, "--jobs", "1", "--write-known", known) is Exit.FAILED
+    capsys.readouterr()
+    given = [known if one == "known.toml" else one for one in options]
+    codes, said = [], []
+    for jobs in ("1", "3"):
+        codes.append(check_log(several, "--jobs", jobs, *given))
+        said.append(capsys.readouterr().out)
+    assert codes[0] == codes[1] and said[0] == said[1]
+    assert said[0].index("log0") < said[0].index("log4")
+
+
+def test_a_log_over_which_a_process_dies_leaves_the_others(several: Path) -> None:
+    logs = logs_in(several)
+    events = at_once.at_once(logs, VariantOptions(), LogOptions(), False, 2)
+    found = [next(events)]
+    for child in _children():
+        os.kill(child, signal.SIGKILL)
+    found += events
+    assert sorted(log for log, _ in found) == logs, "each is told once"
+    faults = [outcome for _, outcome in found if isinstance(outcome, LogFault)]
+    assert 1 <= len(faults) <= 2 and all("SIGKILL" in fault.message for fault in faults)
+
+
+def test_whoever_ends_it_in_the_middle_ends_every_process(several: Path) -> None:
+    events = at_once.at_once(logs_in(several), VariantOptions(), LogOptions(), False, 2)
+    next(events)
+    assert len(_children()) == 2
+    events.close()
+    assert not _children()
+
+
+def _children() -> list[int]:
+    """The processes that this one has started, without the one that lists them."""
+    with subprocess.Popen(
+        ["ps", "--ppid", str(os.getpid()), "-o", "pid="], stdout=subprocess.PIPE, text=True
+    ) as listing:
+        said, _ = listing.communicate()
+        return [int(one) for one in said.split() if int(one) != listing.pid]

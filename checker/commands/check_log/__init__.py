@@ -28,12 +28,19 @@ class LogOptions:
     verbose: bool = False
     known: Path | None = None
     write_known: Path | None = None
+    jobs: int | None = None
 
 
 @click.command(short_help="Check logs recorded on a board.")
 @reading_logs
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Logs of a folder at a time; by default one per processor.",
+)
 @reporting
 @knowing
 @changing
@@ -44,4 +51,4 @@ def check_log(place: Path, options: LogOptions, files: CampaignFiles, charts: Va
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
     from rovercheck.checker.commands.check_log.run import check_log as run
 
-    return run(place, options, charts.variant(), files)
+    return run(place, options, charts.variant(), files, charts)
