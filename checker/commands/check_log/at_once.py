@@ -1,6 +1,6 @@
 """The logs of a folder examined by several processes at once; what each says is as by itself."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,7 +42,7 @@ def worth_it(logs: Sequence[Path], jobs: int) -> bool:
 
 def at_once(
     logs: Sequence[Path], charts: VariantOptions, options: LogOptions, used: bool, jobs: int
-) -> Iterator[tuple[Path, Outcome]]:
+) -> Generator[tuple[Path, Outcome], None, None]:
     """What each log says, as it is known.  Closing the iterator ends all processes.
 
     A log over which a process dies is a fault of its own; the others are examined.
