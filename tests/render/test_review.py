@@ -120,7 +120,15 @@ def test_a_finding_stands_alone() -> None:
     shown = render(replace(review((told,)), hazards={"H-1": hazard}))
     start = shown.index('id="T-1"')
     section = shown[start : shown.index("</details>", start)]
-    wanted = ["What goes wrong", "How bad", "Why it happens", "Known since", "Decision", "Demanded", "Depends on"]
+    wanted = [
+        "What goes wrong",
+        "How bad",
+        "Why it happens",
+        "Known since",
+        "Decision",
+        "Demanded",
+        "Depends on",
+    ]
     places = [section.index(f"<dt>{name}</dt>") for name in wanted]
     assert places == sorted(places)
     assert "It bites &lt;/script&gt;" in section and "#assumption-A1" in section and "2026-03-01" in section
