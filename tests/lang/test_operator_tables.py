@@ -12,6 +12,7 @@ from tests.encode.test_bitvector import CASES
 ROOT = Path(__file__).parents[2]
 NAME = "OPERATIONS"
 WITHOUT = {
+    "rovercheck.checker.conformance.program": "has the table of Python's text, with two rows for decimals",
     "rovercheck.checker.export.infix": "is the part that the tables of SMV and Promela have in common",
     "rovercheck.checker.encode.terms": "simplifies some operators, and leaves the others as they are",
     "rovercheck.spec_model.lang.words": "makes formulas",
