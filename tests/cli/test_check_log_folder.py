@@ -3,8 +3,8 @@
 import json
 import os
 import signal
-import subprocess
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -316,9 +316,11 @@ def test_whoever_ends_it_in_the_middle_ends_every_process(several: Path) -> None
 
 
 def _children() -> list[int]:
-    """The processes that this one has started, without the one that lists them."""
-    with subprocess.Popen(
-        ["ps", "--ppid", str(os.getpid()), "-o", "pid="], stdout=subprocess.PIPE, text=True
-    ) as listing:
-        said, _ = listing.communicate()
-        return [int(one) for one in said.split() if int(one) != listing.pid]
+    """The processes that this one has started and that still run."""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            state, parent, *_ = status.read_text("utf-8").rpartition(")")[2].split()
+            if int(parent) == os.getpid() and state != "Z":
+                found.append(int(status.parent.name))
+    return found
