@@ -48,9 +48,11 @@ def at_once(
     A log over which a process dies is a fault of its own; the others are examined.
     """
     pool = Pool(jobs, LogExaminer.made, (charts, options, used))
+    told = set[int]()
     with closing(pool.run([Order((log,)) for log in logs])) as events:
         for event in events:
             if event.message is not None:
+                told.add(event.number)
                 yield logs[event.number], event.message
-            elif event.failure is not None:
+            elif event.failure is not None and event.number not in told:
                 yield logs[event.number], LogFault(event.failure.replace("the solver process", "its process"))
