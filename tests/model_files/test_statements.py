@@ -89,6 +89,17 @@ def test_a_fault_of_a_neighbour_is_told_once(here: Path) -> None:
     assert [fault.split(": ")[0] for fault in faults] == ["a.py:4", "b.py:3"]
 
 
+def test_a_chart_without_data_is_one_fault_with_all_names(here: Path) -> None:
+    """Each label was a fault of its own: 20 messages for one forgotten list."""
+    labels = 'to("B", "[door && level > 3] / heat = true"), to("B", "[!door]")'
+    b = 'State("B", "entry: level = 0", transitions=[to("A", "[start)")])'
+    text = f'{HEAD}C = Chart("C", [State("A", transitions=[{labels}]), {b}], default="A")\n'
+    first, other = told(here, m=text)
+    assert "the chart has no data, and its labels use door, heat, level." in first
+    assert "Write data=[door, heat, level]" in first
+    assert "transition 1 of B" in other
+
+
 def test_labels_of_several_charts(here: Path) -> None:
     text = HEAD + "".join(
         f'C{n} = Chart("C{n}", [State("A", "en: on = {n}", transitions=[to("A", "[hoot]")])], default="A")\n'

@@ -122,7 +122,8 @@ def report(
         possible(output, options.pdf)
         options = replace(options, command=command(context))
         keeper = None
-        if charts == VariantOptions() and not search.no_store and os.environ.get(STORE) != "":
+        asked_anew = options.certify or search.no_store or os.environ.get(STORE) == ""
+        if charts == VariantOptions() and not asked_anew:
             keeper = PageKeeper.now(search, selection, options)
         kept = keeper.read() if keeper is not None else None
         if kept is not None:

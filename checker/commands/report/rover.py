@@ -18,7 +18,6 @@ from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Covered, Edit, InterpretationRow, Remedy
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.store.parts import PartStore
-from rovercheck.checker.store.tree import tree_key
 from rovercheck.checker.store.verdicts import store
 from rovercheck.checker.system.instrument.goals import KEPT
 from rovercheck.checker.system.instrument.watch import watched
@@ -56,7 +55,7 @@ def _meaning(one: Ambiguity, choice: str) -> str:
 def kept_remedies(found: Sequence[CheckedProperty], kept: PartStore) -> tuple[Remedy, ...]:
     """The repairs of what was found violated: as they are kept while no file has changed, or decided."""
     violated = sorted(c.result.property.id for c in found if c.verdict.word == "violated")
-    name = kept.name("remedies", tree_key(), violated)
+    name = kept.name_now("remedies", violated)
     with suppress(*MEANINGLESS):
         return tuple(_remedy_of(row) for row in kept.read(name))
     made = tuple(remedies(found))

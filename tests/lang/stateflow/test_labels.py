@@ -397,13 +397,3 @@ def test_a_text_and_actions_beside_it() -> None:
         to("A", "[start]", then=[assign(count, 1)])
     with pytest.raises(ModelError, match="write all in the text"):
         State("A", "en: n = 1", entry=[assign(count, 1)])
-
-
-def test_a_chart_without_data_is_one_fault_with_all_names() -> None:
-    """Each label was a fault of its own: 20 messages for one forgotten list."""
-    a = State("A", transitions=[to("B", "[door && level > 3] / heat = true"), to("B", "[!door]")])
-    b = State("B", "entry: level = 0", transitions=[to("A", "[start)")])
-    told, other = Chart("C", [a, b], default="A").label_faults
-    assert "the chart has no data, and its labels use door, heat, level." in told
-    assert "Write data=[door, heat, level]" in told
-    assert "transition 1 of B" in other
