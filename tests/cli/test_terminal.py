@@ -33,7 +33,7 @@ SAID = {
     "graph": "so far",
     "reports": "so far",
     "compare": "deviations",
-    "check-log": "2 of 2: good.csv",
+    "check-log": "2 of 2 logs: good.csv",
     "simulate": " of 16 s",
     "generate-tests": "goals decided",
     "explore": "so far",
