@@ -7,14 +7,15 @@ which branch is taken, and what a compared variable is worth in it; otherwise va
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import count, product
 from math import prod
+from typing import cast
 
 from rovercheck.checker.system.intervals import Interval, postorder, transfer
-from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
+from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import Domain
 from rovercheck.spec_model.lang.evaluate import operate
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
-from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 
 Values = frozenset[int] | Interval
 """Every value there is, or two between which all are."""
@@ -37,7 +38,7 @@ class NoValue(Exception):
     """Nothing can be so."""
 
 
-class _TooMuch(Exception):
+class TooMuch(Exception):
     """The effort is spent."""
 
 
@@ -47,35 +48,35 @@ def values(system: TransitionSystem) -> dict[str, Values]:
     Sound as long as no tick leaves a domain.  Of a step that takes too long to look at nothing is said.
     """
     try:
-        return _settled(system, _Effort())
-    except _TooMuch:
+        return settled(system, AnalysisEffort())
+    except TooMuch:
         return {}
 
 
-def _settled(system: TransitionSystem, effort: "_Effort") -> dict[str, Values]:
+def settled(system: TransitionSystem, effort: "AnalysisEffort") -> dict[str, Values]:
     """The least values that a tick does not add to, each variable growing for some rounds only."""
     before: dict[str, Values] = {v.name: frozenset({system.init[v.name]}) for v in system.variables}
     before |= {v.name: whole(v.domain) for v in system.frozen}
     free = {v.name: whole(v.domain) for v in (*system.inputs, *system.temps)}
-    domains = {v.name: _hull(whole(v.domain)) for v in (*system.variables, *system.temps)}
-    step = _Step(system.step, domains, effort)
+    domains = {v.name: hull(whole(v.domain)) for v in (*system.variables, *system.temps)}
+    step = StepOnValues(system.step, domains, effort)
     for tick in count():
         try:
-            after = assumed(system.assume, True, _Known({**before, **free}), effort)
+            after = assumed(system.assume, True, KnownValues({**before, **free}), effort)
             step.run(after)
         except NoValue:  # the assumption can never be met
             return before
-        joined = {name: _join(values, after[name]) for name, values in before.items()}
-        if joined == before:
+        more = {name: joined(values, after[name]) for name, values in before.items()}
+        if more == before:
             return before
         if tick >= _PATIENCE:
-            grown = (v for v in system.variables if joined[v.name] != before[v.name])
-            joined |= {v.name: whole(v.domain) for v in grown}
-        before = joined
+            grown = (v for v in system.variables if more[v.name] != before[v.name])
+            more |= {v.name: whole(v.domain) for v in grown}
+        before = more
     raise AssertionError("a finite domain grows for ever")
 
 
-class _Known:
+class KnownValues:
     """What variables are worth at some place of a step: what is known there only, over what is everywhere.
 
     A branch, or a choice, thus copies what conditions and assignments around it have changed, and no more.
@@ -94,9 +95,18 @@ class _Known:
     def __setitem__(self, name: str, values: Values) -> None:
         self.here[name] = values
 
-    def inside(self) -> "_Known":
+    def inside(self) -> "KnownValues":
         """The same, for a place within this one."""
-        return _Known(self._everywhere, dict(self.here))
+        return KnownValues(self._everywhere, dict(self.here))
+
+    def join(self, a: "KnownValues", b: "KnownValues") -> None:
+        """Know here what is known at either of two places within this one."""
+        here = self.here
+        for name, one in a.here.items():
+            other = b[name]
+            here[name] = one if one is other else joined(one, other)
+        for name in b.here.keys() - a.here.keys():
+            here[name] = joined(a[name], b.here[name])
 
     def settle(self) -> None:
         """Take what is known here to be known everywhere from now on."""
@@ -104,7 +114,7 @@ class _Known:
         self.here.clear()
 
 
-class _Effort:
+class AnalysisEffort:
     """Counts what is looked at, and knows in which order formulas are."""
 
     def __init__(self) -> None:
@@ -124,20 +134,20 @@ class _Effort:
         return 2 * self._left < _EFFORT
 
     def spend(self, amount: int) -> None:
-        """Raises ``_TooMuch`` when nothing is left."""
+        """Raises ``TooMuch`` when nothing is left."""
         self._left -= amount
         if self._left < 0:
-            raise _TooMuch
+            raise TooMuch
 
 
 def possible(system: TransitionSystem) -> bool:
     """False where no inputs and frozen values ever meet the assumption."""
     everything = (*system.variables, *system.frozen, *system.inputs)
     try:
-        assumed(system.assume, True, _Known({v.name: whole(v.domain) for v in everything}), _Effort())
+        assumed(system.assume, True, KnownValues({v.name: whole(v.domain) for v in everything}), AnalysisEffort())
     except NoValue:
         return False
-    except _TooMuch:
+    except TooMuch:
         return True
     return True
 
@@ -153,7 +163,8 @@ def ends(values: Values) -> tuple[int, int]:
     return (values.low, values.high) if isinstance(values, Interval) else (min(values), max(values))
 
 
-def _hull(values: Values) -> Interval:
+def hull(values: Values) -> Interval:
+    """From the least to the greatest."""
     return Interval(*ends(values))
 
 
@@ -162,12 +173,13 @@ def _few(found: Iterable[int]) -> Values:
     return kept if len(kept) <= FEW else Interval(min(kept), max(kept))
 
 
-def _join(a: Values, b: Values) -> Values:
+def joined(a: Values, b: Values) -> Values:
+    """The values of both, or more."""
     if a == b:
         return a
     if isinstance(a, frozenset) and isinstance(b, frozenset):
         return _few(a | b)
-    return _hull(a) | _hull(b)
+    return hull(a) | hull(b)
 
 
 def _meet(a: Values, low: int, high: int) -> Values:
@@ -183,61 +195,77 @@ def _meet(a: Values, low: int, high: int) -> Values:
     return Interval(low, high) if high - low >= FEW else frozenset(range(low, high + 1))
 
 
-class _Step:
+def within(found: Values, span: Interval) -> Values:
+    """What an assignment leaves in a variable; what leaves a domain whatever happens the search tells."""
+    try:
+        return _meet(found, span.low, span.high)
+    except NoValue:
+        return span
+
+
+class StepOnValues:
     """Runs a program on all values at once, one time after another.
 
-    A statement that finds what it found the last time is not looked at again.
+    A statement, however deep, that finds what it found the last time is not looked at again.
     """
 
-    def __init__(self, program: Sequence[Action], domains: Mapping[str, Interval], effort: _Effort) -> None:
-        self._domains, self._effort = domains, effort
-        self._statements = [(one, tuple({**reads([one]), **writes([one])})) for one in program]
-        self._last: dict[int, tuple[list[Values], dict[str, Values]]] = {}
+    def __init__(self, program: Program, domains: Mapping[str, Interval], effort: AnalysisEffort) -> None:
+        self._program, self._domains, self._effort = program, domains, effort
+        self._names: dict[int, tuple[str, ...]] = {}
+        self._last: dict[int, tuple[list[Values], dict[str, Values] | None]] = {}
+        """By the id of a statement what its variables were worth, and what it then changed; None: no way."""
 
-    def run(self, at: _Known) -> None:
+    def run(self, at: KnownValues) -> None:
         """Run it from what is known before it, which becomes what is known after it."""
-        at.settle()
-        for number, (statement, names) in enumerate(self._statements):
-            given = [at[name] for name in names]
-            last = self._last.get(number)
-            if last is not None and last[0] == given:
-                at.here.update(last[1])
-            else:
-                self._run([statement], at)
-                self._last[number] = given, dict(at.here)
+        for statement in self._program:
             at.settle()
+            self._run((statement,), at)
+        at.settle()
 
-    def _run(self, program: Sequence[Action], at: _Known) -> None:
+    def _run(self, program: Program, at: KnownValues) -> None:
         for statement in program:
-            if isinstance(statement, Assign):
-                found = _Eval(at, self._effort)(statement.value)
-                hull = self._domains[statement.var.name]
-                try:
-                    at[statement.var.name] = _meet(found, hull.low, hull.high)
-                except NoValue:  # it leaves its domain whatever happens: the search tells so
-                    at[statement.var.name] = hull
-            elif isinstance(statement, If):
-                self._branch(statement, at)
+            names = self._names.get(id(statement))
+            if names is None:
+                names = self._names[id(statement)] = (*(statement.read_inside | statement.written),)
+            given = [at[name] for name in names]
+            last = self._last.get(id(statement))
+            if last is None or last[0] != given:
+                last = self._last[id(statement)] = given, self._changed(statement, names, given, at)
+            if last[1] is None:
+                raise NoValue
+            for name, found in last[1].items():
+                at[name] = found
 
-    def _branch(self, statement: If, at: _Known) -> None:
-        after: list[_Known] = []
+    def _changed(
+        self, statement: Statement, names: Sequence[str], given: Sequence[Values], at: KnownValues
+    ) -> dict[str, Values] | None:
+        inside = at.inside()
+        if isinstance(statement, Assign):
+            found = ValuesOf(at, self._effort)(statement.value)
+            return {statement.var.name: within(found, self._domains[statement.var.name])}
+        try:
+            self._branch(statement, inside)
+        except NoValue:
+            return None
+        return {n: inside[n] for n, before in zip(names, given, strict=True) if inside[n] is not before}
+
+    def _branch(self, statement: If, at: KnownValues) -> None:
+        after: list[KnownValues] = []
         for truth, actions in ((True, statement.then), (False, statement.otherwise)):
             try:
                 inside = assumed(statement.condition, truth, at, self._effort)
-                self._run(actions, inside)
+                self._run(cast(Program, actions), inside)
             except NoValue:
                 continue
             after.append(inside)
         if not after:
             raise NoValue
-        a, b = after[0], after[-1]
-        for name in a.here.keys() | b.here.keys():
-            at[name] = _join(a[name], b[name])
+        at.join(after[0], after[-1])
 
 
-def assumed(condition: Expr, truth: bool, at: _Known, effort: _Effort, depth: int = 0) -> _Known:
+def assumed(condition: Expr, truth: bool, at: KnownValues, effort: AnalysisEffort, depth: int = 0) -> KnownValues:
     """What is known where a condition is true, or false.  Raises ``NoValue`` where it cannot be."""
-    found = _Eval(at, effort, depth)(condition)
+    found = ValuesOf(at, effort, depth)(condition)
     if found == (FALSE if truth else TRUE):
         raise NoValue
     effort.spend(len(at.here))
@@ -247,7 +275,7 @@ def assumed(condition: Expr, truth: bool, at: _Known, effort: _Effort, depth: in
     return known
 
 
-def _learn(condition: Expr, truth: bool, known: _Known) -> None:
+def _learn(condition: Expr, truth: bool, known: KnownValues) -> None:
     todo = [(condition, truth)]
     while todo:
         condition, truth = todo.pop()
@@ -268,26 +296,26 @@ def _learn(condition: Expr, truth: bool, known: _Known) -> None:
 
 
 def _compared(values: Values, op: Op, value: int) -> Values:
-    hull = _hull(values)
+    span = hull(values)
     match op:
         case Op.EQ:
             return _meet(values, value, value)
         case Op.LT:
-            return _meet(values, hull.low, value - 1)
+            return _meet(values, span.low, value - 1)
         case Op.LE:
-            return _meet(values, hull.low, value)
+            return _meet(values, span.low, value)
         case Op.GT:
-            return _meet(values, value + 1, hull.high)
+            return _meet(values, value + 1, span.high)
         case Op.GE:
-            return _meet(values, value, hull.high)
+            return _meet(values, value, span.high)
         case Op.NE if isinstance(values, frozenset):
             if not values - {value}:
                 raise NoValue
             return values - {value}
-        case Op.NE if value == hull.low:
-            return _meet(values, value + 1, hull.high)
-        case Op.NE if value == hull.high:
-            return _meet(values, hull.low, value - 1)
+        case Op.NE if value == span.low:
+            return _meet(values, value + 1, span.high)
+        case Op.NE if value == span.high:
+            return _meet(values, span.low, value - 1)
     return values
 
 
@@ -295,10 +323,10 @@ _CONTRARY = {Op.EQ: Op.NE, Op.NE: Op.EQ, Op.LT: Op.GE, Op.GE: Op.LT, Op.GT: Op.L
 _TURNED = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
 
 
-class _Eval:
+class ValuesOf:
     """The values of formulas where variables have some; ``depth`` counts the choices around them."""
 
-    def __init__(self, at: _Known, effort: _Effort, depth: int = 0) -> None:
+    def __init__(self, at: KnownValues, effort: AnalysisEffort, depth: int = 0) -> None:
         self._at, self._effort, self._depth = at, effort, depth
         self._done: dict[int, Values] = {}
 
@@ -309,6 +337,10 @@ class _Eval:
                 self._effort.spend(_NODE)
                 done[id(node)] = self._of(node)
         return done[id(expr)]
+
+    def known(self, expr: Expr) -> Values:
+        """What a part of a formula is worth that was looked at."""
+        return self._done[id(expr)]
 
     def _of(self, expr: Expr) -> Values:
         match expr:
@@ -331,15 +363,15 @@ class _Eval:
         if known != EITHER:
             return self._done[id(then if known == TRUE else other)]
         if self._depth >= _DEEP or self._effort.half:
-            return _join(self._done[id(then)], self._done[id(other)])
+            return joined(self._done[id(then)], self._done[id(other)])
         found: Values | None = None
         for truth, value in ((True, then), (False, other)):
             try:
                 inside = assumed(test, truth, self._at, self._effort, self._depth + 1)
             except NoValue:
                 continue
-            here = _Eval(inside, self._effort, self._depth + 1)(value)
-            found = here if found is None else _join(found, here)
+            here = ValuesOf(inside, self._effort, self._depth + 1)(value)
+            found = here if found is None else joined(found, here)
         if found is None:
             raise NoValue
         return found
@@ -356,7 +388,7 @@ def _applied(op: Op, args: Sequence[Values]) -> Values:
     few = [arg for arg in args if isinstance(arg, frozenset)]
     if len(few) == len(args) and prod(map(len, few)) <= _MOST_TRIED:
         return _few(operate(op, *vector) for vector in product(*few))
-    hulls = [_hull(a) for a in args]
+    hulls = [hull(a) for a in args]
     match op:
         case Op.EQ if hulls[0].high < hulls[1].low or hulls[1].high < hulls[0].low:
             return FALSE

@@ -11,11 +11,11 @@ _KEPT = 4
 
 def lowered(system: System) -> TransitionSystem:
     """The transition system of a system.  Raises ``ModelError`` for an ill-formed one."""
-    return _lowered(_Same(system))
+    return _lowered(ByIdentity(system))
 
 
-class _Same:
-    """A system as a key: equal to itself alone (formulas cannot be compared)."""
+class ByIdentity:
+    """A system as a key of what is remembered: equal to itself alone (formulas cannot be compared)."""
 
     def __init__(self, system: System) -> None:
         self.system = system
@@ -24,9 +24,9 @@ class _Same:
         return id(self.system)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and other.system is self.system
+        return isinstance(other, ByIdentity) and other.system is self.system
 
 
 @lru_cache(maxsize=_KEPT)
-def _lowered(key: _Same) -> TransitionSystem:
+def _lowered(key: ByIdentity) -> TransitionSystem:
     return lower(key.system)

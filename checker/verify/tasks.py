@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.checker.system.formula_json import Tree
-from rovercheck.checker.verify.portfolio.shape import driven
+from rovercheck.checker.system.width import driven
 from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.properties.reduce import Question, reduce, without_step
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean

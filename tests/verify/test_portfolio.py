@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, engines
 from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
+from rovercheck.checker.system.width import WIDE
 from rovercheck.checker.verify.portfolio import (
     Callbacks,
     Disagreement,
@@ -25,7 +26,7 @@ from rovercheck.checker.verify.portfolio import (
 )
 from rovercheck.checker.verify.portfolio.order import ORDERS, Turn
 from rovercheck.checker.verify.portfolio.question import EngineAnswer
-from rovercheck.checker.verify.portfolio.shape import VAST, WIDE, Shape
+from rovercheck.checker.verify.portfolio.shape import VAST, Shape
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.expr import Var, flag
 from rovercheck.spec_model.lang.system import TransitionSystem

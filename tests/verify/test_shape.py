@@ -2,9 +2,10 @@
 
 import pytest
 
+from rovercheck.checker.system.width import FEW, WIDE
 from rovercheck.checker.verify.portfolio import PortfolioQuestion, Prior
 from rovercheck.checker.verify.portfolio.order import ORDERS
-from rovercheck.checker.verify.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
+from rovercheck.checker.verify.portfolio.shape import BROAD, MANY, VAST, Shape, shape
 from rovercheck.spec_model.composition.motors import motors_zero
 from rovercheck.spec_model.lang.chart import Chart, State, to
 from rovercheck.spec_model.lang.lower import lower

@@ -8,10 +8,11 @@ from math import prod
 from time import monotonic
 
 from rovercheck.checker.encode.counters import counters
+from rovercheck.checker.encode.dead_branches import narrowed
 from rovercheck.checker.encode.gather import bits, gathered
 from rovercheck.checker.encode.native import Field, Layout, NativeSearch, NativeTask, TooWide, layout, shifts
 from rovercheck.checker.encode.native.layout import WORD_BITS
-from rovercheck.checker.encode.values import possible, values
+from rovercheck.checker.encode.values import possible
 from rovercheck.checker.engines import Limits, Progress, Stage, Timers
 from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch, SearchUsage
 from rovercheck.checker.engines.explicit.lines import LineSearch
@@ -191,14 +192,14 @@ def _by_cases(
     several = list(cases(system, part)) if _wide(part) else []
     if len(several) < 2:
         return _searched(system, part, goals, within, spent)
-    found: list[Mapping[str, Answer]] = []
+    least, found = narrowed(part).system, list[Mapping[str, Answer]]()
     for number, (case, one) in enumerate(several):
         if reached := within.over(spent):
             found.append({g.name: Open(f"{reached} is reached before {case}", 0) for g in goals})
             continue
         told = replace(within, progress=partial(_report_case, within.progress, case))
         before = _shared(within.limits.transitions, spent, len(several) - number)
-        answers, after = _searched(one(system), one(part), goals, told, before)
+        answers, after = _searched(one(system), one(least), goals, told, before)
         found.append({name: about(case, answer) for name, answer in answers.items()})
         spent = replace(spent, transitions=spent.transitions + after.transitions - before.transitions)
     return joined(part, found), spent
@@ -228,9 +229,9 @@ def _searched(
     """One search of a slice: an answer for each goal, and what is spent after it."""
     limits = within.limits
     try:
-        packing = _layout(part, limits)
+        least, packing = _narrow(part, limits)
         moved = shifts(packing, counters(part)) if limits.timers is Timers.SKIP else ()
-        task = NativeTask(part, packing, tuple(goals), moved)
+        task = NativeTask(least, packing, tuple(goals), moved)
         within.progress(Stage(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits"))
         native = NativeSearch.compile(task)
     except (TooWide, ValueError) as problem:
@@ -247,12 +248,16 @@ def _searched(
     return answers, SearchUsage(spent.transitions + found.transitions, spent.bytes + kept)
 
 
-def _layout(part: TransitionSystem, limits: Limits) -> Layout:
-    """As few words as it takes; what values there are is looked at where there are many."""
+def _narrow(part: TransitionSystem, limits: Limits) -> tuple[TransitionSystem, Layout]:
+    """What is compiled of a slice, and its states in as few words as it takes.
+
+    What values there are, and which branches no run takes, is looked at where there is much to compile.
+    """
     stored = (*part.frozen, *part.variables)
     if not _wide(part) or limits.timers is Timers.SKIP:  # quiet ticks move counters as far as they go
-        return layout(stored)
-    return layout(stored, values(part))
+        return part, layout(stored)
+    least = narrowed(part)
+    return least.system, layout(stored, least.values)
 
 
 def _answer(found: ExplicitFound, runs: Runs, number: int, goal: Var) -> Answer:

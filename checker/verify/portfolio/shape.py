@@ -1,23 +1,20 @@
 """What a question looks like: the few facts about it that choose the order of the engines."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.system.width import FEW, WIDE, bits_of
 from rovercheck.checker.verify.portfolio.question import PortfolioQuestion, Prior
 from rovercheck.spec_model.lang.chart import Chart, Path
-from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
-WIDE, VAST = 200, 800
-"""Bits of a state, of what the goals depend on: up to the first, enumerating states is worth much
-effort, up to the second some, above it none (compiling such a step takes longer than deciding it)."""
+VAST = 800
+"""Bits of a state, of what the goals depend on: up to ``WIDE``, enumerating states is worth much
+effort, up to this some, above it none (compiling such a step takes longer than deciding it)."""
 
 BROAD = 64
 """Bits of a state: with more, enumerating is soon given up, and taken up again if no proof is found."""
-
-FEW = 4
-"""Bits that are free in each tick: with so few a state has few successors, however wide it is."""
 
 MANY = 40
 """Bits that are free in each tick: with more, a wide state has more successors than can be enumerated."""
@@ -56,20 +53,11 @@ class Shape:
         return self.kind in ("narrow", "broad")
 
 
-def driven(system: TransitionSystem) -> bool:
-    """Whether little is chosen in each tick, so that most of a state follows from what was chosen."""
-    return _bits(system.inputs) <= (FEW if _bits(system.variables) > WIDE else 1)
-
-
-def _bits(variables: Iterable[Var]) -> int:
-    return sum((len(v.domain) - 1).bit_length() for v in variables)
-
-
 def shape(question: PortfolioQuestion) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
     bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}
-    return Shape(sum(bits.values()), question.prior, _at_once(question.system, bits), _bits(part.inputs))
+    return Shape(sum(bits.values()), question.prior, _at_once(question.system, bits), bits_of(part.inputs))
 
 
 def _at_once(system: TransitionSystem, bits: Mapping[str, int]) -> int:
