@@ -1,7 +1,7 @@
 """A system without the branches that no run takes: what its values decide is written down as decided.
 
-A scene drives most of a rover down few of its ways.  What lies beside them is neither worth compiling nor part
-of what a verdict depends on.  The states of the system, and what each tick makes of them, stay the same.
+A scene drives most of a rover down few of its ways.  What lies beside them is neither worth compiling nor
+part of what a verdict depends on.  The states of the system, and what each tick makes of them, stay the same.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,14 +25,14 @@ from rovercheck.checker.encode.values import (
     within,
 )
 from rovercheck.spec_model.lang.action import Assign, If
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 
 
 @dataclass(frozen=True)
 class Narrowed:
-    """A system without its dead branches, and what is known of the values of its variables (may be nothing)."""
+    """A system without its dead branches, and what is known of the values of its variables, if it is."""
 
     system: TransitionSystem
     values: Mapping[str, Values]
@@ -56,7 +56,9 @@ def narrowed(system: TransitionSystem) -> Narrowed:
 class _Narrowing:
     """Rewrites a step from what variables are worth before it."""
 
-    def __init__(self, system: TransitionSystem, before: Mapping[str, Values], effort: AnalysisEffort) -> None:
+    def __init__(
+        self, system: TransitionSystem, before: Mapping[str, Values], effort: AnalysisEffort
+    ) -> None:
         self._system, self._before, self._effort = system, before, effort
 
     @cached_property
@@ -86,7 +88,7 @@ class _Narrowing:
         return out
 
     def _choice(self, statement: If, at: KnownValues) -> list[Statement]:
-        """What is left of it: one of its branches where the other is dead.  Raises ``NoValue`` as for none."""
+        """What is left of it: one branch where the other is dead.  Raises ``NoValue`` where both are."""
         alive: list[tuple[KnownValues, list[Statement]]] = []
         for truth, actions in ((True, statement.then), (False, statement.otherwise)):
             try:

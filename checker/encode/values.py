@@ -144,7 +144,9 @@ def possible(system: TransitionSystem) -> bool:
     """False where no inputs and frozen values ever meet the assumption."""
     everything = (*system.variables, *system.frozen, *system.inputs)
     try:
-        assumed(system.assume, True, KnownValues({v.name: whole(v.domain) for v in everything}), AnalysisEffort())
+        assumed(
+            system.assume, True, KnownValues({v.name: whole(v.domain) for v in everything}), AnalysisEffort()
+        )
     except NoValue:
         return False
     except TooMuch:
@@ -263,7 +265,9 @@ class StepOnValues:
         at.join(after[0], after[-1])
 
 
-def assumed(condition: Expr, truth: bool, at: KnownValues, effort: AnalysisEffort, depth: int = 0) -> KnownValues:
+def assumed(
+    condition: Expr, truth: bool, at: KnownValues, effort: AnalysisEffort, depth: int = 0
+) -> KnownValues:
     """What is known where a condition is true, or false.  Raises ``NoValue`` where it cannot be."""
     found = ValuesOf(at, effort, depth)(condition)
     if found == (FALSE if truth else TRUE):

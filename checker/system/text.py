@@ -10,12 +10,17 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class SystemText:
-    """Lines that determine what is added to it; formulas and domains are numbered and written once."""
+    """Lines that determine what is added to it; formulas and domains are numbered and written once.
+
+    Equal ones have one number, be they one object or several: how a system was made does not show.
+    """
 
     def __init__(self) -> None:
         self.lines: list[str] = []
         self.known: dict[int, tuple[int, object]] = {}
         """Number by ``id``; what is numbered is held, so that ids stay unique."""
+        self._numbers: dict[tuple[object, ...], int] = {}
+        """By what is written of it."""
 
     @property
     def digest(self) -> str:
@@ -68,7 +73,9 @@ class SystemText:
         return known[0] if known else self._numbered(value, (repr(value),))
 
     def _numbered(self, value: object, words: tuple[object, ...]) -> int:
-        number = len(self.known)
+        number = self._numbers.get(words)
+        if number is None:
+            number = self._numbers[words] = len(self._numbers)
+            self.add(number, *words)
         self.known[id(value)] = number, value
-        self.add(number, *words)
         return number

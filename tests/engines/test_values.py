@@ -12,6 +12,7 @@ from rovercheck.checker.certify.certificate import certificates
 from rovercheck.checker.certify.check import CheckEffort, check
 from rovercheck.checker.certify.outcome import Accepted
 from rovercheck.checker.encode import values as known_values
+from rovercheck.checker.encode.dead_branches import Narrowed
 from rovercheck.checker.encode.native import OutsideDomain, layout
 from rovercheck.checker.encode.values import Values, ends, possible, values
 from rovercheck.checker.engines import Limits, explicit, quiet
@@ -148,7 +149,9 @@ def test_values_that_a_domain_lacks_are_left_out() -> None:
 
 
 def test_a_value_that_none_was_known_to_take_is_an_error_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(explicit_answers, "values", lambda _: {"level": frozenset({0, 1})})
+    monkeypatch.setattr(
+        explicit_answers, "narrowed", lambda part: Narrowed(part, {"level": frozenset({0, 1})})
+    )
     done = flag("done")
     toy = replace(system(assign(done, level == 8), assign(level, 7)), variables=(level, spare, done))
     with pytest.raises(AssertionError, match="none was known to take"):
