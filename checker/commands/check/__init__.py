@@ -181,6 +181,8 @@ def check(
         from rovercheck.checker.verify.finding_order import order_of
 
         variant = charts.variant()
+        if selection.whole:
+            len([*variant.unchanged().values()])  # a fault of any system is told, also of one not asked about
         properties = selection.properties(variant)
         if options.changed is not None:
             properties = _changed(properties, options.changed, variant)
@@ -293,9 +295,10 @@ def _keeping(kept: "ToldStore | None", variant: "Variant") -> "Callable[[Sequenc
     if kept is None:
         return unkept
     from rovercheck.checker.commands.check.unchanged import ToldModel, ToldProperty, keepable
+    from rovercheck.properties.catalogue import as_written
 
     def keep(found: "Sequence[ToldVerdict]") -> None:
-        properties = {id: ToldProperty(p.on, p.costly) for id, p in variant.properties().items()}
+        properties = {id: ToldProperty(p.on, p.costly) for id, p in as_written().items()}
         told = {one.id: replace(one, strict=False) for one in found if keepable(one)}
         kept.add(ToldModel(properties, list(variant.systems()), told))
 
