@@ -182,7 +182,7 @@ def check(
 
         variant = charts.variant()
         if selection.whole:
-            len([*variant.unchanged().values()])  # a fault of any system is told, also of one not asked about
+            _ = [*variant.unchanged().values()]  # a fault of any system is told, also of one not asked about
         properties = selection.properties(variant)
         if options.changed is not None:
             properties = _changed(properties, options.changed, variant)
@@ -202,7 +202,8 @@ def check(
         order = order_of(variant.model, variant.systems())
         guide = Guide(variant.options, selection.again, causes(variant))
         deliver = _delivering(options, variant)
-        further = _further(options, variant, settings, chains)
+        asked = None if selection.whole else {p.id for p in properties}
+        further = _further(options, variant, settings, chains, asked)
         return run(
             CheckRequest(
                 properties,
@@ -339,20 +340,9 @@ def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":
 
     if not (options.junit or options.sarif or options.annotations):
         return undelivered
-    from rovercheck.checker.commands.check.ci import Reports
-    from rovercheck.checker.verify.finding_order import order_of
+    from rovercheck.checker.commands.check.ci import reporting
 
-    reports = Reports(
-        order_of(variant.model, variant.systems()),
-        options.junit,
-        options.sarif,
-        options.annotations or "",
-        variant.name,
-        variant.options,
-        options.as_json,
-    )
-    reports.possible()
-    return reports.write
+    return reporting(options, variant)
 
 
 def _chains(variant: "Variant") -> "Chains | None":
@@ -365,14 +355,21 @@ def _chains(variant: "Variant") -> "Chains | None":
 
 
 def _further(
-    options: CheckOptions, variant: "Variant", search: "SearchSettings", chains: "Chains | None"
+    options: CheckOptions,
+    variant: "Variant",
+    search: "SearchSettings",
+    chains: "Chains | None",
+    asked: set[str] | None,
 ) -> "CheckExtras":
-    """What is asked of the verdicts; faults are kept of the charts as they are."""
+    """What is asked of the verdicts; faults are kept of the charts as they are.
+
+    Of what is kept only that is read which is about the properties ``asked`` for (None: all).
+    """
     from rovercheck.checker.commands.check.further import CheckExtras, noticing
 
-    further = CheckExtras(noticing=None if variant.name else noticing(variant.model))
+    further = CheckExtras(noticing=None if variant.name else noticing(variant.model, asked))
     if not options.no_premises:
-        premises = _premises(options, variant, search)
+        premises = _premises(options, variant, search, asked)
         further = replace(further, on_result=premises.on_result, cases=premises)
     if options.record_invariants:
         from rovercheck.checker.commands.check.invariants import InvariantRecorder
@@ -381,7 +378,9 @@ def _further(
     return further if chains is None else replace(further, chains=chains.standings)
 
 
-def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings") -> "PremiseSearch":
+def _premises(
+    options: CheckOptions, variant: "Variant", search: "SearchSettings", asked: set[str] | None
+) -> "PremiseSearch":
     """Checks whether the premises of proofs occur, and records the runs if wanted."""
     from rovercheck.checker.commands.check.premises import PremiseSearch, recordable
     from rovercheck.checker.model.kept_runs import file_of, read
@@ -389,7 +388,9 @@ def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings
     model, keep = variant.model, options.record_premises
     if keep:
         recordable(model, variant.name)
-    return PremiseSearch(model, variant.systems(), read(file_of(model)), search, options.quiet, keep)
+    return PremiseSearch(
+        model, variant.systems(), read(file_of(model), only=asked), search, options.quiet, keep
+    )
 
 
 def _engine_choice(engine: str, every: bool) -> str:
