@@ -5,7 +5,7 @@ import importlib
 import os
 import pkgutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, MutableMapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -50,22 +50,45 @@ class Verbs(click.Group):
         return super().resolve_command(ctx, args)
 
 
-@click.group(cls=Verbs, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+class VerbTable(MutableMapping[str, click.Command]):
+    """The verbs by name: each a module of the folder ``commands``, loaded when the verb is asked for."""
+
+    def __init__(self) -> None:
+        found = (entry.name for entry in pkgutil.iter_modules(commands.__path__))
+        self._modules = {name.replace("_", "-"): name for name in found if name != "shared"}
+        self._loaded: dict[str, click.Command] = {}
+
+    def __getitem__(self, name: str) -> click.Command:
+        if name not in self._loaded:
+            module = importlib.import_module(f"{commands.__name__}.{self._modules[name]}")
+            [verb] = [thing for thing in vars(module).values() if isinstance(thing, click.Command)]
+            self._loaded[name] = helped(completed(verb))
+        return self._loaded[name]
+
+    def __setitem__(self, name: str, verb: click.Command) -> None:
+        self._modules.setdefault(name, name)
+        self._loaded[name] = verb
+
+    def __delitem__(self, name: str) -> None:
+        del self._modules[name]
+        self._loaded.pop(name, None)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._modules)
+
+    def __len__(self) -> int:
+        return len(self._modules)
+
+
+@click.group(
+    cls=Verbs, commands=VerbTable(), epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]}
+)
 @click.version_option(None, "-V", "--version", package_name="rovercheck", message="%(prog)s %(version)s")
 def app() -> None:
     """Check the rover's supervisors: charts, properties, verdicts with evidence."""
 
 
-def _found() -> Iterator[click.Command]:
-    """The verbs: every command of a module in the folder ``commands``."""
-    for entry in pkgutil.iter_modules(commands.__path__):
-        module = importlib.import_module(f"{commands.__name__}.{entry.name}")
-        yield from (thing for thing in vars(module).values() if isinstance(thing, click.Command))
-
-
 helped(app)
-for verb in _found():
-    app.add_command(helped(completed(verb)))
 
 
 def main() -> None:

@@ -18,6 +18,7 @@ from rovercheck.properties.requirements import requirement
 from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.walk import variables
 from rovercheck.spec_model.rover import interpretations_of
 
@@ -26,18 +27,40 @@ if TYPE_CHECKING:
 
 
 @cache
-def catalogue() -> dict[str, Property]:
+def catalogue() -> Mapping[str, Property]:
     """Every property by id, area by area, every interpretation at its default."""
     return under({})
 
 
-def under(choices: Mapping[str, str]) -> dict[str, Property]:
+def under(choices: Mapping[str, str]) -> Mapping[str, Property]:
     """Every property by id under chosen interpretations; what reads no interpretation is the same under all.
 
     Raises ``ModelError`` for an unknown interpretation or choice.
     """
-    fixing = fixed(choices)
-    return {id: replace(prop, form=fixing.parts_of(prop.form)) for id, prop in as_written().items()}
+    return _Chosen(as_written(), fixed(choices))
+
+
+class _Chosen(Mapping[str, Property]):
+    """Properties with their interpretations chosen, which is done for each when it is first asked for."""
+
+    def __init__(self, written: Mapping[str, Property], fixing: Specialiser) -> None:
+        self._written, self._fixing = written, fixing
+        self._made: dict[str, Property] = {}
+
+    def __getitem__(self, id: str) -> Property:
+        if id not in self._made:
+            prop = self._written[id]
+            self._made[id] = replace(prop, form=self._fixing.parts_of(prop.form))
+        return self._made[id]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._written)
+
+    def __len__(self) -> int:
+        return len(self._written)
+
+    def __contains__(self, id: object) -> bool:
+        return id in self._written
 
 
 def read_by(prop: Property) -> set[str]:

@@ -4,6 +4,7 @@ A chart alone may meet inputs that never meet in its board.  A violation found t
 board has one, and is looked for where everything that does not matter to it stands still.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from rovercheck.spec_model.board1.systems import board1
@@ -13,23 +14,31 @@ from rovercheck.spec_model.lang.expr import Expr, all_of
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.system_table import SystemTable
 
 
-def plain(system: System, name: str, scene: str, assume: Expr) -> System:
+def _plain(
+    board: Callable[[], System], name: str, scene: str, assume: Expr
+) -> tuple[str, Callable[[], System]]:
     """A board in a scene that leaves few runs."""
-    return replace(
-        system,
-        name=name,
-        text=f"{system.name} in a plain scene.",
-        assume=all_of(system.assume, assume),
-        notes=(*system.notes, scene),
-        under=True,
-    )
+
+    def built() -> System:
+        system = board()
+        return replace(
+            system,
+            name=name,
+            text=f"{system.name} in a plain scene.",
+            assume=all_of(system.assume, assume),
+            notes=(*system.notes, scene),
+            under=True,
+        )
+
+    return name, built
 
 
 first, *others = (b1.wheel_speed_rpm[wheel] for wheel in b1.WHEELS)
 
-board1_plain = plain(
+board1_plain = _plain(
     board1,
     "board1_plain",
     "Temperature 25 °C, battery 80 %, encoders with feedback, four equal wheel speeds, a frame with a new "
@@ -49,7 +58,7 @@ board1_plain = plain(
 
 STILL = (b1.x_norm, b1.y_norm, b1.crit_mask_b2, b1.degr_mask_b2, b1.current_yaw)
 
-board1_buttons = plain(
+board1_buttons = _plain(
     board1,
     "board1_buttons",
     "As board1_plain with wheels at rest, where frames may be missing and carry nothing but buttons: stick "
@@ -70,7 +79,7 @@ board1_buttons = plain(
 
 first_2, *others_2 = map(env2.arriving, b2.wheel_speed_rpm.values())
 
-board2_plain = plain(
+board2_plain = _plain(
     board2,
     "board2_plain",
     "All sources deliver in every step, the yaw rate is 0, four equal wheel speeds; the masks of Board 1, "
@@ -83,4 +92,4 @@ board2_plain = plain(
     ),
 )
 
-SYSTEMS: tuple[System, ...] = (board1_plain, board1_buttons, board2_plain)
+SYSTEMS = SystemTable(board1_plain, board1_buttons, board2_plain)

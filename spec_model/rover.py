@@ -10,8 +10,8 @@ from types import MappingProxyType
 from rovercheck.spec_model.ambiguity import ambiguities, fixed, left_open, modelled_only
 from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.chart import Chart
-from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System, charts_of
+from rovercheck.spec_model.system_table import SystemTable, unlike
 
 AS_READ: Mapping[str, str] = MappingProxyType({})
 """Every interpretation at its default."""
@@ -33,7 +33,7 @@ BOARDS = (
     "rovercheck.spec_model.board1.jitter_systems",
     "rovercheck.spec_model.board2.jitter_systems",
 )
-"""Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
+"""Modules with a table SYSTEMS, in the order in which the systems are listed."""
 
 
 def systems(choices: Mapping[str, str] = AS_READ) -> Mapping[str, System]:
@@ -51,13 +51,14 @@ def _systems(chosen: tuple[tuple[str, str], ...]) -> "_Read":
 
 
 class _Read(Mapping[str, System]):
-    """The systems under chosen interpretations: modules are read until a name is found."""
+    """The systems under chosen interpretations: modules are read until a name is found, and that is built."""
 
     def __init__(self, choices: Mapping[str, str]) -> None:
         self._choices, self._fixing, self._open = choices, fixed(choices), left_open(choices)
         self._modelled = modelled_only(choices)
         self._modules = list(BOARDS)
-        self._written: dict[str, System] = {}
+        self._tables: tuple[SystemTable, ...] = ()
+        self._listed: dict[str, SystemTable] = {}
         self._read: dict[str, System] = {}
 
     def __getitem__(self, name: str) -> System:
@@ -77,26 +78,27 @@ class _Read(Mapping[str, System]):
 
     def declared(self, name: str) -> System:
         """A system as its module declares it, its charts as drawn.  Raises ``KeyError`` if none does."""
-        while name not in self._written:
+        while name not in self._listed:
             if not self._modules:
                 raise KeyError(name)
             self._read_one()
-        return self._written[name]
+        return self._listed[name][name]
 
-    def _all(self) -> Mapping[str, System]:
+    def _all(self) -> Mapping[str, SystemTable]:
         while self._modules:
             self._read_one()
-        return self._written
+        return self._listed
 
     def _read_one(self) -> None:
         """Read the next module, which is left for the next time if that is interrupted."""
         module, *rest = self._modules
-        self._written, self._modules = merged((*self._written.values(), *_systems_of(module))), rest
+        tables = (*self._tables, _systems_of(module))
+        self._listed, self._tables, self._modules = merged(tables), tables, rest
 
 
 def as_written() -> Iterator[System]:
     """Every system with its interpretations open, the alternatives of its charts included."""
-    return (woven(system) for module in BOARDS for system in _systems_of(module))
+    return (woven(system) for module in BOARDS for system in _systems_of(module).values())
 
 
 @cache
@@ -105,22 +107,19 @@ def interpretations_of(name: str) -> frozenset[str]:
     return frozenset(woven(_systems(()).declared(name)).inputs.keys() & ambiguities().keys())
 
 
-def _systems_of(module: str) -> tuple[System, ...]:
+def _systems_of(module: str) -> SystemTable:
     package = module.rpartition(".")[0]
     if find_spec(package) is None or find_spec(module) is None:
-        return ()
-    found: tuple[System, ...] = import_module(module).SYSTEMS
+        return SystemTable()
+    found: SystemTable = import_module(module).SYSTEMS
     return found
 
 
-def merged(found: Iterable[System]) -> dict[str, System]:
-    """The systems by name.  Raises ``ModelError`` for a name used twice."""
-    by_name: dict[str, System] = {}
-    for system in found:
-        if system.name in by_name:
-            raise ModelError(f"Two systems are named {system.name!r}; rename one of them.")
-        by_name[system.name] = system
-    return by_name
+def merged(tables: Iterable[SystemTable]) -> dict[str, SystemTable]:
+    """The table that lists each system, by name.  Raises ``ModelError`` for a name used twice."""
+    every = tuple(tables)
+    unlike(name for table in every for name in table)
+    return {name: table for table in every for name in table}
 
 
 def charts(choices: Mapping[str, str] = AS_READ) -> dict[str, Chart]:

@@ -22,7 +22,12 @@ if TYPE_CHECKING:  # the command line reads this module for its options
 ALL, AUTO = "all", "auto"
 """What may be written instead of the name of an engine: every engine, or engines in turn."""
 
-LOADED = ("rovercheck.checker.verify.decide", "rovercheck.checker.engines.explicit.answers")
+LOADED = (
+    "rovercheck.checker.verify.search_worker",
+    "rovercheck.checker.verify.decide",
+    "rovercheck.checker.engines.explicit.answers",
+    "rovercheck.checker.verify.stored",
+)
 """The modules of nearly every search: a process loads them while the command reads its model."""
 
 

@@ -1,7 +1,7 @@
 """Runs kept beside the expected verdicts: they show cases that occur, and faults that are noticed."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -48,15 +48,18 @@ def file_of(model: Model, kind: str = PREMISES) -> Path:
     return table.with_name(f"{table.name.removesuffix('baseline.toml')}{kind}.json")
 
 
-def read(file: Path, kind: str = PREMISES) -> dict[str, KeptRun]:
+def read(file: Path, kind: str = PREMISES, only: Collection[str] | None = None) -> dict[str, KeptRun]:
     """The runs in a file by the id of their property or mutant, none if there is no file.
 
-    Raises ``ModelError`` for a file that holds something else.
+    With ``only``, those of these ids; the others are not looked at.  Raises ``ModelError`` for a file that
+    holds something else.
     """
 
     def runs(rows: Any) -> dict[str, KeptRun]:
         left, found = MOST_TICKS, dict[str, KeptRun]()
         for id, one in rows.items():
+            if only is not None and id not in only:
+                continue
             found[id] = kept(one, left)
             left -= len(found[id].run)
         return found

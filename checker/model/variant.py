@@ -68,9 +68,9 @@ class Variant:
         edited = {name: repaired(system, self.repair) for name, system in found.items()}
         return {n: s if s is found[n] else fixing.system(s) for n, s in edited.items()}
 
-    def properties(self) -> dict[str, Property]:
+    def properties(self) -> Mapping[str, Property]:
         """Every property by id, under the chosen interpretations.  Raises ``ModelError`` if there is none."""
-        return dict(self.model.stated())
+        return self.model.stated()
 
     def concerns(self) -> Callable[[Property], bool]:
         """Whether the variant can change the verdict on a property."""

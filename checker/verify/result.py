@@ -18,7 +18,6 @@ from rovercheck.checker.results.verdict import (
     Violated,
 )
 from rovercheck.checker.verify.portfolio.question import Found, Prior
-from rovercheck.checker.verify.runs.domains import leaves, stray
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import Goal
 from rovercheck.spec_model.lang.expr import Var
@@ -75,6 +74,8 @@ def check_domains(system: TransitionSystem, found: Found) -> None:
     checks = {check.name: found[check.name][0] for check, _ in system.checks if check.name in found}
     runs = [answer for answer in checks.values() if isinstance(answer, Reached)]
     if runs:
+        from rovercheck.checker.verify.runs.domains import leaves, stray
+
         shortest = min(runs, key=lambda answer: len(answer.run))
         at = stray(system, shortest.run)
         assert at is not None, "a check is raised by a run that leaves no domain"

@@ -19,7 +19,6 @@ from rovercheck.checker.process.pool import GrantedTime
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Verdict, Violated
 from rovercheck.checker.system.formula_json import Tree
-from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property
@@ -114,6 +113,7 @@ class SearchWorker:
 
     def _search(self, send: Send, task: Task) -> None:
         from rovercheck.checker.certify.record import Recorder
+        from rovercheck.checker.system.lowering_cache import lowered
         from rovercheck.checker.verify.decide import decide
         from rovercheck.checker.verify.portfolio import Callbacks
         from rovercheck.checker.verify.portfolio.question import stays

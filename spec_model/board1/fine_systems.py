@@ -12,6 +12,7 @@ from rovercheck.spec_model.environment.board1 import reception_clock
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board1_fine as fine
+from rovercheck.spec_model.system_table import SystemTable
 
 STAMPS = (
     "Time stamps are exact to the ms. Several updates between two steps are one update with the latest "
@@ -40,14 +41,17 @@ reception_ms = in_order(
     concrete="reception_ms_exact",
 )
 
-reception_ms_exact = in_order(
-    "reception_ms_exact",
-    env.reception_clock,
-    env.reception_record,
-    reception,
-    text="Reception monitor with frames that arrive at any ms and the exact mean of ten intervals.",
-    notes=[STAMPS],
-)
+
+def _reception_exact() -> System:
+    return in_order(
+        "reception_ms_exact",
+        env.reception_clock,
+        env.reception_record(),
+        reception,
+        text="Reception monitor with frames that arrive at any ms and the exact mean of ten intervals.",
+        notes=[STAMPS],
+    )
+
 
 heartbeat_ms = in_order(
     "heartbeat_ms",
@@ -60,36 +64,42 @@ heartbeat_ms = in_order(
     concrete="heartbeat_ms_exact",
 )
 
-heartbeat_ms_exact = in_order(
-    "heartbeat_ms_exact",
-    env.heartbeat_clock,
-    env.heartbeat_record,
-    heartbeat,
-    text="Heartbeat monitor with heartbeats at any ms and the exact mean of ten intervals.",
-    notes=[STAMPS, STAMPED_LATE],
-)
+
+def _heartbeat_exact() -> System:
+    return in_order(
+        "heartbeat_ms_exact",
+        env.heartbeat_clock,
+        env.heartbeat_record(),
+        heartbeat,
+        text="Heartbeat monitor with heartbeats at any ms and the exact mean of ten intervals.",
+        notes=[STAMPS, STAMPED_LATE],
+    )
+
 
 LINKS_MS = (*monitor_wheels, monitor_heartbeat, reception)
 """The monitors of a link whose frames may come between the steps; heartbeats come on them."""
 
-environment = [
-    env.reception_at(b1.rx_phase) if part is reception_clock else part
-    for part in board1.components[: -len(SUPERVISOR)]
-]
-board1_ms = replace(
-    board1,
-    name="board1_ms",
-    components=(*environment, *supervisor(LINKS_MS)),
-    text="The whole supervisor of Board 1; frames come any ms before a step, always as many.",
-    frozen=(b1.rx_phase,),
-    notes=(env.CONSTANT_PHASE, FEW_VALUES, HEADINGS),
-    place=None,
-)
 
-SYSTEMS: tuple[System, ...] = (
+def _board1_ms() -> System:
+    environment = [
+        env.reception_at(b1.rx_phase) if part is reception_clock else part
+        for part in board1().components[: -len(SUPERVISOR)]
+    ]
+    return replace(
+        board1(),
+        name="board1_ms",
+        components=(*environment, *supervisor(LINKS_MS)),
+        text="The whole supervisor of Board 1; frames come any ms before a step, always as many.",
+        frozen=(b1.rx_phase,),
+        notes=(env.CONSTANT_PHASE, FEW_VALUES, HEADINGS),
+        place=None,
+    )
+
+
+SYSTEMS = SystemTable(
     reception_ms,
-    reception_ms_exact,
+    ("reception_ms_exact", _reception_exact),
     heartbeat_ms,
-    heartbeat_ms_exact,
-    board1_ms,
+    ("heartbeat_ms_exact", _heartbeat_exact),
+    ("board1_ms", _board1_ms),
 )

@@ -10,9 +10,10 @@ from rovercheck.spec_model.board1.temperature import monitor_temperature
 from rovercheck.spec_model.environment import jitter as env
 from rovercheck.spec_model.environment.board1 import battery_readings, check_stop, temperature_readings
 from rovercheck.spec_model.lang.expr import all_of, implies
-from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board1_fine as fine
+from rovercheck.spec_model.system_table import SystemTable
 
 reception = reception_monitor(fine.rx_age_ms)
 heartbeat = heartbeat_monitor(fine.heartbeat_age_ms)
@@ -128,7 +129,7 @@ stop_jitter = in_order(
     elapsed=env.step_ms,
 )
 
-SYSTEMS: tuple[System, ...] = (
+SYSTEMS = SystemTable(
     reception_jitter,
     frames_jitter_exact,
     frames_jitter,

@@ -1,6 +1,7 @@
 """Board 2 where its steps last 19 to 21 ms: monitors, authorisation, windows of obstacles, the stop."""
 
 from dataclasses import replace
+from functools import partial
 
 from rovercheck.spec_model.board2.classify import process_masks
 from rovercheck.spec_model.board2.failure_check import check_board1
@@ -10,7 +11,7 @@ from rovercheck.spec_model.board2.motion import check_stop_2, motion_2_with_free
 from rovercheck.spec_model.board2.motion_systems import COMES_BEFORE, FREE_BACKWARD
 from rovercheck.spec_model.board2.obstacles import obstacles_n
 from rovercheck.spec_model.board2.slow2 import Record, exact_ms, forgotten
-from rovercheck.spec_model.board2.systems import AS_DRAWN, FREE_HEADING, TURNS
+from rovercheck.spec_model.board2.systems import FREE_HEADING, TURNS, as_drawn
 from rovercheck.spec_model.environment import board2 as board2_env
 from rovercheck.spec_model.environment import jitter as env
 from rovercheck.spec_model.environment.milliseconds import clock
@@ -23,6 +24,7 @@ from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2 import d1, d2, d3, prevDEG_B1
 from rovercheck.spec_model.signals.board2_motion import ay_norm, bx_norm
+from rovercheck.spec_model.system_table import SystemTable
 
 # --- the monitors ---------------------------------------------------------------------------------------
 
@@ -147,15 +149,17 @@ obstacles_passing_jitter = in_order(
     elapsed=env.step_ms,
 )  # fmt: skip
 
-window_jitter = replace(
-    free_timers(
-        replace(woven(AS_DRAWN), elapsed=env.step_ms, notes=(env.JITTER, *AS_DRAWN.notes)),
+
+def _window() -> System:
+    drawn = as_drawn()
+    free = free_timers(
+        replace(woven(drawn), elapsed=env.step_ms, notes=(env.JITTER, *drawn.notes)),
         (*TURNS, "timerSonar12"),
         name="obstacles_n_12_jitter",
         text="As obstacles_n_12, in steps of 19 to 21 ms.",
-    ),
-    concrete="",
-)
+    )
+    return replace(free, concrete="")
+
 
 # --- the stop -------------------------------------------------------------------------------------------
 
@@ -182,14 +186,18 @@ deaf_jitter = in_order(
     elapsed=env.step_ms,
 )  # fmt: skip
 
-SYSTEMS: tuple[System, ...] = (
-    *(make(source) for source in SOURCES for make in (_exact, _monitor)),
+SYSTEMS = SystemTable(
+    *(
+        (f"monitors_2_{source.region}_jitter{exact}", partial(make, source))
+        for source in SOURCES
+        for exact, make in (("_exact", _exact), ("", _monitor))
+    ),
     _ageless(SUP),
     _ageless(RX),
     frames_2_jitter,
     check_jitter,
     check_requests_jitter,
     obstacles_passing_jitter,
-    window_jitter,
+    ("obstacles_n_12_jitter", _window),
     deaf_jitter,
 )

@@ -1,7 +1,8 @@
 """The systems in which the monitors of Board 2 are checked: each source alone, all four, and two boards."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from rovercheck.spec_model.board2.monitors import RECORDS, monitor_sources, monitors
 from rovercheck.spec_model.board2.slow2 import Record, exact, forgotten, mean_slow, runs
@@ -11,6 +12,7 @@ from rovercheck.spec_model.lang.chart import Component
 from rovercheck.spec_model.lang.expr import Var, all_of
 from rovercheck.spec_model.lang.system import Note, System, in_order
 from rovercheck.spec_model.signals.board2_supervisor import SOURCES, SourceSignals
+from rovercheck.spec_model.system_table import SystemTable
 
 GRID = Note(
     "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
@@ -126,11 +128,16 @@ def _apart(shared: SourceSignals) -> System:
     )
 
 
-SYSTEMS: tuple[System, ...] = (
+def _each(name: str, make: Callable[[SourceSignals], System]) -> list[tuple[str, Callable[[], System]]]:
+    """A system about each source, by the name that it has with a region in it."""
+    return [(name.format(source.region), partial(make, source)) for source in SOURCES]
+
+
+SYSTEMS = SystemTable(
     all_sources,
-    *(_exact(source) for source in SOURCES),
-    *(_rows(source) for source in SOURCES),
-    *(_twice_exact(source) for source in SOURCES),
-    *(_twice_free(source) for source in SOURCES),
-    *(_apart(source) for source in SOURCES),
+    *_each("monitors_2_{}_exact", _exact),
+    *_each("monitors_2_{}", _rows),
+    *_each("monitors_2_twice_{}_exact", _twice_exact),
+    *_each("monitors_2_twice_{}", _twice_free),
+    *_each("monitors_2_apart_{}", _apart),
 )

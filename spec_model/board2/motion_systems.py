@@ -6,8 +6,9 @@ from rovercheck.spec_model.board2.motion import check_stop_2, motion_2_with_free
 from rovercheck.spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from rovercheck.spec_model.board2.safety import safety_state_2
 from rovercheck.spec_model.lang.chart import Enabled
-from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.signals.board2_supervisor import autorized_to_send_command
+from rovercheck.spec_model.system_table import SystemTable
 
 FREE_BACKWARD = "Backward mode is free in every step, which allows every run of its toggle and more."
 FREE_ERROR = (
@@ -21,7 +22,7 @@ FREE_CAUSES = (
 )
 COMES_BEFORE = (safety_state_2, obstacles_driving, obstacle_command)
 
-SYSTEMS: tuple[System, ...] = (
+SYSTEMS = SystemTable(
     in_order(
         "references_2_drawn",
         check_stop_2,

@@ -3,8 +3,9 @@
 The obstacle charts and the motion charts have systems of their own.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 
 from rovercheck.spec_model.board2 import ACTUATION, acquisition, coherence, supervisor
 from rovercheck.spec_model.board2.classify import process_masks
@@ -33,6 +34,7 @@ from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2 import SONARS
 from rovercheck.spec_model.signals.board2_supervisor import SourceSignals
 from rovercheck.spec_model.signals.rotation import TARGET
+from rovercheck.spec_model.system_table import SystemTable
 
 FREE_STATUSES = (
     "What other blocks compute is free in every step, which allows every run of the board and more: what "
@@ -77,23 +79,25 @@ check_links_exact = in_order(
     notes=[GRID, WITH_FRAMES, "The joystick and IMU monitors are left out: the authorisation reads neither."],
 )
 
-check_links = free_timers(
-    woven(
-        in_order(
-            "check_board1_links_free",
-            *watching(LINKS, forgotten),
-            check_board1,
-            assume=env.heartbeat_travels_in_frames,
-            notes=[GRID, WITH_FRAMES, FORGOTTEN, "Requests to switch are free in every step."],
-            over=True,
-            concrete="check_board1_links",
-        )
-    ),
-    ["Check_Board1"],
-    name="check_board1_links_free",
-    text="As check_board1_links; the monitors return at will.",
-)
-check_links = replace(check_links, concrete="check_board1_links")
+
+def _check_links() -> System:
+    exact = in_order(
+        "check_board1_links_free",
+        *watching(LINKS, forgotten),
+        check_board1,
+        assume=env.heartbeat_travels_in_frames,
+        notes=[GRID, WITH_FRAMES, FORGOTTEN, "Requests to switch are free in every step."],
+        over=True,
+        concrete="check_board1_links",
+    )
+    free = free_timers(
+        woven(exact),
+        ["Check_Board1"],
+        name="check_board1_links_free",
+        text="As check_board1_links; the monitors return at will.",
+    )
+    return replace(free, concrete="check_board1_links")
+
 
 FADING = (
     "The first frame comes at 60 ms, then one in every step, each with a new alive counter, until they stop "
@@ -255,10 +259,13 @@ def _whole(sources: Sequence[SourceSignals]) -> tuple[Component, ...]:
     return (*env.SNAPSHOTS, *env.clocks_of(sources), env.sonar_clock, *charts, ACTUATION)
 
 
-BOARD2 = _whole(b2.SOURCES)
-"""Both the obstacle chart and the motion chart read the one heading."""
+@cache
+def _drawn() -> tuple[Component, ...]:
+    """Both the obstacle chart and the motion chart read the one heading."""
+    return _whole(b2.SOURCES)
 
 
+@cache
 def _obstacles_and_monitors() -> tuple[Component, ...]:
     charts = selection(
         obstacles_n(),
@@ -273,9 +280,9 @@ def _obstacles_and_monitors() -> tuple[Component, ...]:
 one_scan = Block("OneScan", [when(b2.sonar_update, [assign(scanned, True)])])
 
 
-def _all_is_well(name: str, text: str, scans: Expr, note: str) -> System:
+def _all_is_well(name: str, text: str, scans: Expr, note: str) -> tuple[str, Callable[[], System]]:
     """Obstacle charts and monitors, with sound Board 1 and sources, and sonar data as told."""
-    return in_order(
+    return name, lambda: in_order(
         name,
         env.sonars,
         env.sonar_clock,
@@ -312,49 +319,62 @@ ON_ITS_OWN = (
     "No frame of Board 1 ever arrives; joystick and IMU deliver in every step, no sonar hears an echo, the "
     "rover keeps its heading, the stick is pushed forward or not, to the left or not."
 )
-on_its_own = in_order(
-    "board2_on_its_own",
-    *BOARD2,
-    text="Board 2 with a Board 1 that never sends.",
-    assume=all_of(
-        ~b2.SUP.update,
-        ~b2.RX.update,
-        b2.BLE.update,
-        b2.IMU.update,
-        b2.sonar_update,
-        *(env.arriving(d) == 301 for d in SONARS),
-        *(env.arriving(still) == 0 for still in (motion.yaw, b2.gz_dps)),
-        *(~env.arriving(button) for button in (motion.btn1, motion.btn2)),
-        any_of(*(env.arriving(motion.ay_norm) == y for y in (0, 1))),
-        any_of(*(env.arriving(motion.bx_norm) == x for x in (0, 1))),
-    ),
-    notes=[GRID, ON_ITS_OWN],
-    under=True,
-)
 
-board2 = in_order(
-    "board2",
-    *BOARD2,
-    text="The whole supervisor of Board 2 and its motor commands, with exact records of ten gaps.",
-    assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, WITH_FRAMES, FEW_VALUES, HEADING],
-)
 
-board2_ms = replace(
-    board2,
-    name="board2_ms",
-    components=_whole(b2.SOURCES_MS),
-    text="The whole supervisor of Board 2; data come any ms before a step, those of a source always as many.",
-    frozen=tuple(s.phase for s in b2.SOURCES_MS if s.phase is not None),
-    notes=(CONSTANT_PHASE, WITH_FRAMES, FEW_VALUES, HEADING),
-    place=None,
-)
+def _on_its_own() -> System:
+    return in_order(
+        "board2_on_its_own",
+        *_drawn(),
+        text="Board 2 with a Board 1 that never sends.",
+        assume=all_of(
+            ~b2.SUP.update,
+            ~b2.RX.update,
+            b2.BLE.update,
+            b2.IMU.update,
+            b2.sonar_update,
+            *(env.arriving(d) == 301 for d in SONARS),
+            *(env.arriving(still) == 0 for still in (motion.yaw, b2.gz_dps)),
+            *(~env.arriving(button) for button in (motion.btn1, motion.btn2)),
+            any_of(*(env.arriving(motion.ay_norm) == y for y in (0, 1))),
+            any_of(*(env.arriving(motion.bx_norm) == x for x in (0, 1))),
+        ),
+        notes=[GRID, ON_ITS_OWN],
+        under=True,
+    )
 
-SYSTEMS: tuple[System, ...] = (
+
+@cache
+def board2() -> System:
+    """The whole supervisor of Board 2."""
+    return in_order(
+        "board2",
+        *_drawn(),
+        text="The whole supervisor of Board 2 and its motor commands, with exact records of ten gaps.",
+        assume=env.heartbeat_travels_in_frames,
+        notes=[GRID, WITH_FRAMES, FEW_VALUES, HEADING],
+    )
+
+
+def _board2_ms() -> System:
+    text = (
+        "The whole supervisor of Board 2; data come any ms before a step, those of a source always as many."
+    )
+    return replace(
+        board2(),
+        name="board2_ms",
+        components=_whole(b2.SOURCES_MS),
+        text=text,
+        frozen=tuple(s.phase for s in b2.SOURCES_MS if s.phase is not None),
+        notes=(CONSTANT_PHASE, WITH_FRAMES, FEW_VALUES, HEADING),
+        place=None,
+    )
+
+
+SYSTEMS = SystemTable(
     masks,
     check_alone,
     check_links_exact,
-    check_links,
+    ("check_board1_links_free", _check_links),
     check_fading,
     check_requests,
     safety,
@@ -371,7 +391,7 @@ SYSTEMS: tuple[System, ...] = (
     inputs,
     sonar_silence,
     sonar_without_echo,
-    on_its_own,
-    board2,
-    board2_ms,
+    ("board2_on_its_own", _on_its_own),
+    ("board2", board2),
+    ("board2_ms", _board2_ms),
 )

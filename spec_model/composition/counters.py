@@ -10,8 +10,9 @@ from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import flag, var
-from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.lang.words import modulo
+from rovercheck.spec_model.system_table import SystemTable
 
 MODULUS = 16
 
@@ -47,4 +48,4 @@ counters = in_order(
     notes=(f"The sender executes at will; at most {MANY} frames in a row are lost.",),
 )
 
-SYSTEMS: tuple[System, ...] = (counters,)
+SYSTEMS = SystemTable(counters)

@@ -6,7 +6,7 @@ holds of the rover.  Where a whole board stands between two hops, a *contract* t
 that may do anything that the properties named in its text, proved of the board, allow.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from rovercheck.spec_model.board1.relay import relay
@@ -33,6 +33,7 @@ from rovercheck.spec_model.lang.words import minimum
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.common import RX_STATUS, SUP_STATUS
+from rovercheck.spec_model.system_table import SystemTable
 
 PHASES = "Every task executes in its period of 20 ms (control: 10 ms) at a constant phase nobody knows."
 FREE = (
@@ -45,21 +46,25 @@ NO_LOSS = "No frame of the chain is lost or corrupted (A02); a frame takes one m
 def _chain(
     name: str, text: str, *components: Component, tasks: Sequence[RoverTask], assume: Expr = TRUE,
     notes: Sequence[str] = (),
-) -> System:  # fmt: skip
+) -> tuple[str, Callable[[], System]]:  # fmt: skip
     """A chain whose timers of seconds may end at will: only its milliseconds are counted."""
-    exact = in_order(
-        name,
-        clock,
-        *components,
-        text=text,
-        frozen=phases(*tasks),
-        assume=assume,
-        notes=[PHASES, FREE, *notes],
-        over=True,
-        tick_ms=MILLISECOND,
-        step_ms=TICK_MS,
-    )
-    return replace(free_timers(woven(exact), name=name, text=text), concrete="")
+
+    def built() -> System:
+        exact = in_order(
+            name,
+            clock,
+            *components,
+            text=text,
+            frozen=phases(*tasks),
+            assume=assume,
+            notes=[PHASES, FREE, *notes],
+            over=True,
+            tick_ms=MILLISECOND,
+            step_ms=TICK_MS,
+        )
+        return replace(free_timers(woven(exact), name=name, text=text), concrete="")
+
+    return name, built
 
 
 sup1, sup2 = task("SUP1", at_zero=True), task("SUP2")
@@ -243,7 +248,7 @@ stopping_contract = Contract(
 )  # fmt: skip
 
 
-def _stopping(name: str, text: str, motion: Contract) -> System:
+def _stopping(name: str, text: str, motion: Contract) -> tuple[str, Callable[[], System]]:
     """From a sonar snapshot over Board 2 and the link to what Board 1 does."""
     return _chain(
         name,
@@ -282,7 +287,9 @@ def _board(supervisor: RoverTask) -> str:
     return "Board 1" if supervisor is sup1 else "Board 2"
 
 
-def _critical(name: str, text: str, sender: RoverTask, transmit: RoverTask, receiver: RoverTask) -> System:
+def _critical(
+    name: str, text: str, sender: RoverTask, transmit: RoverTask, receiver: RoverTask
+) -> tuple[str, Callable[[], System]]:
     """From a critical cause in a step of the sender to the references of the receiver."""
     link = line(f"{name}.line", [(critical_sent, critical_received)], transmit.due, critical_frame)
     return _chain(
@@ -330,7 +337,7 @@ critical_1_to_2 = _critical(
     sup2,
 )
 
-SYSTEMS: tuple[System, ...] = (
+SYSTEMS = SystemTable(
     handover_fine,
     silence_fine,
     heartbeat_fine,
@@ -342,20 +349,20 @@ SYSTEMS: tuple[System, ...] = (
 )
 
 CONTRACTS: Mapping[str, tuple[Contract, ...]] = {
-    stop_fine.name: (obstacle_contract, motion_contract),
-    stop_obeyed_fine.name: (obstacle_contract, obeying_contract),
-    stop_unconditional_fine.name: (obstacle_contract, stopping_contract),
-    critical_2_to_1.name: (say, obey),
-    critical_1_to_2.name: (say, obey),
+    "stop_fine": (obstacle_contract, motion_contract),
+    "stop_obeyed_fine": (obstacle_contract, obeying_contract),
+    "stop_unconditional_fine": (obstacle_contract, stopping_contract),
+    "critical_2_to_1": (say, obey),
+    "critical_1_to_2": (say, obey),
 }
 """By the chain's name, what it takes for granted of the two boards; a promise names who proves it."""
 
 WIRES: Mapping[str, tuple[Var, Var]] = {
-    handover_fine.name: (asks_switch, b2.b1_requests_switch),
-    stop_fine.name: (stop_decided, stop_received),
-    stop_obeyed_fine.name: (stop_decided, stop_received),
-    stop_unconditional_fine.name: (stop_decided, stop_received),
-    critical_2_to_1.name: (critical_sent, critical_received),
-    critical_1_to_2.name: (critical_sent, critical_received),
+    "handover_fine": (asks_switch, b2.b1_requests_switch),
+    "stop_fine": (stop_decided, stop_received),
+    "stop_obeyed_fine": (stop_decided, stop_received),
+    "stop_unconditional_fine": (stop_decided, stop_received),
+    "critical_2_to_1": (critical_sent, critical_received),
+    "critical_1_to_2": (critical_sent, critical_received),
 }
 """By the chain's name, what its frame carries to what."""

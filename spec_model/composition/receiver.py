@@ -10,7 +10,8 @@ from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import enumeration, integer
 from rovercheck.spec_model.lang.expr import all_of, flag, implies, ite, member, var
-from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.system_table import SystemTable
 
 LENGTH = 6
 BYTE = enumeration("Byte", ["OTHER", "SYNC1", "SYNC2"])
@@ -139,4 +140,4 @@ receiver = in_order(
     ),
 )
 
-SYSTEMS: tuple[System, ...] = (receiver,)
+SYSTEMS = SystemTable(receiver)

@@ -25,6 +25,7 @@ from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.common import PHASE_CLASS
+from rovercheck.spec_model.system_table import SystemTable
 
 RX_1 = "reception of Board 1"
 """The monitor of Board 1 whose data may be stamped between two steps, beside those of Board 2."""
@@ -62,14 +63,16 @@ class Stamped:
         return in_turn(supervisor_1(links), board2, reception, clocks)
 
 
-_stamped = Stamped(ALL)
+def _rover_ms() -> System:
+    stamped = Stamped(ALL)
+    return in_order(
+        "rover_ms",
+        *stamped.in_turn(stamped.board2),
+        text="Both boards, each of which may fail, and a link that may fail; data are stamped between the "
+        "steps.",
+        frozen=tuple(stamped.phases.values()),
+        notes=(SYNCHRONOUS, fine.CONSTANT_PHASE, ENVIRONMENT),
+    )
 
-rover_ms = in_order(
-    "rover_ms",
-    *_stamped.in_turn(_stamped.board2),
-    text="Both boards, each of which may fail, and a link that may fail; data are stamped between the steps.",
-    frozen=tuple(_stamped.phases.values()),
-    notes=(SYNCHRONOUS, fine.CONSTANT_PHASE, ENVIRONMENT),
-)
 
-SYSTEMS: tuple[System, ...] = (rover_ms,)
+SYSTEMS = SystemTable(("rover_ms", _rover_ms))

@@ -1,7 +1,7 @@
 """The whole rover, step by step: both supervisors, both directions of the link, relay, motors, faults."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 
 from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.board1 import SUPERVISOR as SUPERVISOR_1
@@ -33,6 +33,7 @@ from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2 as obstacles
 from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.system_table import SystemTable
 
 SYNCHRONOUS = Note(
     "Both supervisors execute once per tick of 20 ms; what one writes is seen by the other one or two ticks "
@@ -43,8 +44,6 @@ ENVIRONMENT = (
     "Sonars, joystick, IMU, temperature, battery, wheels and encoder flags are arbitrary, on both sides of "
     "every limit; a datum changes only with its time stamp."
 )
-SUPERVISOR_2 = supervisor(heading=measured(motion.yaw, targetAngle))
-
 link12 = link(
     "B1-B2",
     [
@@ -98,10 +97,12 @@ A04 = Assumption(
 )
 FRESH = Assumption("FRESH", "Every sensor delivers a valid reading in every step.", all_of(*SENSORS))
 
-RECORDS = (
-    arrival_window("rx", b1.rx_update),
-    arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
-)
+
+@cache
+def _records() -> tuple[Block, Block]:
+    """The exact records of Board 1, which all systems share."""
+    heartbeats = arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves)
+    return arrival_window("rx", b1.rx_update), heartbeats
 
 
 def in_turn(
@@ -120,7 +121,7 @@ def in_turn(
         env1.battery_readings,
         reception,
         env1.heartbeat_clock,
-        *RECORDS,
+        *_records(),
         env1.check_stop,
         Enabled(runs_1, *board1, name="Board 1"),
         env2.joystick,
@@ -135,7 +136,11 @@ def in_turn(
     )
 
 
-PARTS = in_turn(SUPERVISOR_1, SUPERVISOR_2)
+@cache
+def _parts() -> tuple[Component, ...]:
+    """Both boards, as drawn."""
+    return in_turn(SUPERVISOR_1, supervisor(heading=measured(motion.yaw, targetAngle)))
+
 
 PLAIN: Mapping[Var, bool | int] = {
     **dict.fromkeys(SENSORS, True),
@@ -154,15 +159,25 @@ SCENE = (
 )
 
 
-def _rover(name: str, text: str, *assumptions: Assumption) -> System:
+Listed = tuple[str, Callable[[], System]]
+
+
+def _rover(name: str, text: str, *assumptions: Assumption) -> Listed:
     notes = (SYNCHRONOUS, ENVIRONMENT)
-    return in_order(name, *PARTS, text=text, notes=notes, assumptions=assumptions)
+    return name, lambda: in_order(name, *_parts(), text=text, notes=notes, assumptions=assumptions)
 
 
-def _plain(name: str, text: str, *assumptions: Assumption) -> System:
+def _plain(name: str, text: str, *assumptions: Assumption) -> Listed:
     """The rover in one scene: what is violated there is violated."""
-    scene = all_of(*(v == value for v, value in PLAIN.items()))
-    return replace(_rover(name, text, *assumptions), assume=scene, notes=(SYNCHRONOUS, SCENE), under=True)
+    notes = (SYNCHRONOUS, SCENE)
+
+    def built() -> System:
+        scene = all_of(*(v == value for v, value in PLAIN.items()))
+        return in_order(
+            name, *_parts(), text=text, assume=scene, notes=notes, under=True, assumptions=assumptions
+        )
+
+    return name, built
 
 
 motors = in_order(
@@ -198,7 +213,7 @@ links = in_order(
     notes=[SYNCHRONOUS],
 )
 
-SYSTEMS: tuple[System, ...] = (
+SYSTEMS = SystemTable(
     _rover("rover", "Both boards with the link, whose frames may be lost, corrupted or late.", A04),
     _rover("rover_no_loss", "Both boards with a link that loses nothing.", A02, A04),
     _rover("rover_few_losses", "Both boards with a link that loses at most two frames in a row.", A03, A04),

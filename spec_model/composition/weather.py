@@ -8,6 +8,7 @@ a link, and the data of a sensor, come at a phase to the steps that nobody knows
 """
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from rovercheck.spec_model.board2.coherence import COHERENCE
 from rovercheck.spec_model.composition.link import all_frames_arrive
@@ -37,6 +38,7 @@ from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2 import SONARS
+from rovercheck.spec_model.system_table import SystemTable
 
 SPELL = enumeration("Spell", ["ahead", "present", "over"])
 """Of a fault: it has not begun, it is there, it has ended."""
@@ -208,13 +210,16 @@ STEERED_TOO = [BY_NAME[name] for name in ("joystick", "imu", "supervisor2", "whe
 """Faults with which the rover is steered at will.  Where Board 2 drives, its ramp has too many states to
 be enumerated (a dead link to Board 1: more than 84 million); the others degrade late, or stop nothing."""
 
-SYSTEMS: tuple[System, ...] = (
-    *map(alone, FAULTS),
-    *map(steered, STEERED_TOO),
-    steered(BY_NAME["near"], turning=True),
-    calm(),
-    *(with_another(first, second) for first, second in PAIRS),
-    *map(with_another, FIRST),
-    *(with_another(fault, *(name for name in HEARD if name != fault.name)) for fault in FIRST_HEARD),
+SYSTEMS = SystemTable(
+    *((f"weather_{fault.name}", partial(alone, fault)) for fault in FAULTS),
+    *((f"weather_{fault.name}_steered", partial(steered, fault)) for fault in STEERED_TOO),
+    ("weather_near_steered", partial(steered, BY_NAME["near"], turning=True)),
+    ("weather_calm", calm),
+    *((f"weather_{first.name}_{second}", partial(with_another, first, second)) for first, second in PAIRS),
+    *((f"weather_{fault.name}_2", partial(with_another, fault)) for fault in FIRST),
+    *(
+        (f"weather_{fault.name}_2", partial(with_another, fault, *(n for n in HEARD if n != fault.name)))
+        for fault in FIRST_HEARD
+    ),
 )
 """What the motors do while something has failed, on both boards, at every phase, alone or with another."""

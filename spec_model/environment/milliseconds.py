@@ -6,6 +6,7 @@ step is at 20 ms.
 """
 
 from dataclasses import replace
+from functools import cache
 
 from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.intervals import STEP, Arrivals, any_mean
@@ -46,8 +47,16 @@ reception_clock = clock("Board2_Data.age", b1.rx_update, fine.rx_lag, fine.rx_ag
 heartbeat_clock = clock("Heartbeat.age", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_age_ms)
 
 
-reception_record = window_of(rx)
-heartbeat_record = window_of(counted_heartbeat)
+@cache
+def reception_record() -> Block:
+    """The exact mean of the intervals between frames."""
+    return window_of(rx)
+
+
+@cache
+def heartbeat_record() -> Block:
+    """The exact mean of the intervals between heartbeats."""
+    return window_of(counted_heartbeat)
 
 
 def _any(arrivals: Arrivals, do: list[Action]) -> Block:

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Union
 
-from rovercheck.spec_model.lang.domain import Bool, Num, show
+from rovercheck.spec_model.lang.domain import Bool, Num, in_resolution, show
 from rovercheck.spec_model.lang.errors import ModelError, brief, several, with_article
-from rovercheck.spec_model.lang.expr import Const, Expr, Operand, Var, is_multiple, lift, rescale
+from rovercheck.spec_model.lang.expr import Const, Expr, Operand, Var, lift, rescale
 from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.walk import variables
 
@@ -107,8 +107,8 @@ def assign(var: Var, value: Operand | str) -> Assign:
 def _in_steps_of(var: Var, expr: Expr) -> Expr:
     if not (isinstance(expr.sort, Num) and isinstance(var.sort, Num)):
         return expr
-    literal = isinstance(expr, Const) and is_multiple(expr, var.sort.resolution)
-    if not literal and (expr.sort.resolution / var.sort.resolution).denominator != 1:
+    raw = expr.value if isinstance(expr, Const) else 1
+    if in_resolution(raw, expr.sort.resolution, var.sort.resolution) is None:
         raise ModelError(
             f"{var.name} has steps of {show(var.sort.resolution)} and `{expr}` steps of "
             f"{show(expr.sort.resolution)}; give {var.name} a resolution that divides both."

@@ -157,6 +157,12 @@ def _decimal(value: Fraction) -> Decimal:
     return Context(prec=digits).divide(Decimal(value.numerator), Decimal(value.denominator))
 
 
+def in_resolution(raw: int, old: Fraction, new: Fraction) -> int | None:
+    """The raw value of the same number in another resolution; None where that has none for it."""
+    found, rest = divmod(raw * old.numerator * new.denominator, old.denominator * new.numerator)
+    return None if rest else found
+
+
 def common_resolution(a: Fraction, b: Fraction) -> Fraction:
     """The coarsest resolution in which both are exact: the greatest common divisor."""
     return (

@@ -23,6 +23,7 @@ from rovercheck.spec_model.lang.domain import (
     check_domain,
     common_resolution,
     exact,
+    in_resolution,
     own,
 )
 from rovercheck.spec_model.lang.errors import BINDS, BINDS_BEFORE, ModelError, apart, brief, with_article
@@ -245,6 +246,8 @@ def lift(value: object, like: Sort) -> Expr:
     """A Python value met beside a formula of sort ``like``."""
     if isinstance(value, Expr):
         return value
+    if type(value) is int and isinstance(like, Num):  # the most frequent case
+        return Const(value, like if like.resolution == 1 else Num(unit=like.unit))
     value = own(value)
     if isinstance(value, bool) and isinstance(like, Bool):
         return TRUE if value else FALSE
@@ -266,7 +269,7 @@ def _sort_of(*operands: object) -> Sort:
 
 
 def as_boolean(value: object, where: str) -> Expr:
-    expr = lift(value, Bool())
+    expr = value if isinstance(value, Expr) else lift(value, Bool())
     if not isinstance(expr.sort, Bool):
         kind = with_article(expr.sort)
         raise ModelError(f"`{expr}` is {kind}; `{where}` needs a condition, such as a comparison.")
@@ -289,33 +292,28 @@ def as_number(expr: Expr, where: str) -> Expr:
 def rescale(expr: Expr, sort: Num) -> Expr:
     """The same number in a resolution that divides its own (for a constant: its value)."""
     assert isinstance(expr.sort, Num)
-    if (factor := expr.sort.resolution / sort.resolution) == 1:
+    if (old := expr.sort.resolution) == (new := sort.resolution):
         return expr
     if isinstance(expr, Const):
-        assert (expr.value * factor).denominator == 1
-        return Const(int(expr.value * factor), sort)
+        raw = in_resolution(expr.value, old, new)
+        assert raw is not None
+        return Const(raw, sort)
+    factor = old / new
     assert factor.denominator == 1
     return Apply(Op.SCALE, (expr, Const(int(factor), Num())), sort)
-
-
-def is_multiple(literal: Const, resolution: Fraction) -> bool:
-    """Whether the constant is a whole number of steps of the resolution."""
-    assert isinstance(literal.sort, Num)
-    same = literal.sort.resolution == resolution
-    return same or (literal.value * literal.sort.resolution / resolution).denominator == 1
 
 
 def aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
     """Numbers of one unit in one resolution."""
     nums = [s for e in exprs if isinstance(s := as_number(e, where).sort, Num)]
-    if all(n == nums[0] for n in nums):
+    if all(n is nums[0] or n == nums[0] for n in nums):
         return exprs, nums[0]
     if len({n.unit for n in nums}) > 1:
         shown = " and ".join(f"`{e}` in {n.unit or 'no unit'}" for e, n in zip(exprs, nums, strict=True))
         raise ModelError(f"`{where}` mixes {shown}; convert with a factor that has a unit.")
     steps = [n.resolution for e, n in zip(exprs, nums, strict=True) if not isinstance(e, Const)]
     for e, num in zip(exprs, nums, strict=True):
-        if isinstance(e, Const) and not (steps and is_multiple(e, steps[0])):
+        if isinstance(e, Const) and (not steps or in_resolution(e.value, num.resolution, steps[0]) is None):
             steps.append(num.resolution)  # a constant needs no finer steps than its value does
     step = reduce(common_resolution, steps)
     sort = Num(step, nums[0].unit)
@@ -324,9 +322,9 @@ def aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
 
 def _compare(op: Op, left: object, right: object) -> Expr:
     like = _sort_of(left, right)
-    joined = (Op.AND, Op.OR, Op.NOT)
-    binds = BINDS if any(isinstance(e, Apply) and e.op in joined for e in (left, right)) else ""
-    one, two = (_joined(lift, side, like, binds=binds) for side in (left, right))
+    binds = BINDS if {getattr(left, "op", None), getattr(right, "op", None)} & {Op.AND, Op.OR, Op.NOT} else ""
+    one = left if isinstance(left, Expr) else _joined(lift, left, like, binds=binds)
+    two = right if isinstance(right, Expr) else _joined(lift, right, like, binds=binds)
     if isinstance(one.sort, Num) and isinstance(two.sort, Num):
         return Apply(op, aligned(op.value, one, two)[0], Bool())
     if one.sort != two.sort:

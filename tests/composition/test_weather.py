@@ -20,9 +20,9 @@ from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2 import d1, d2, d3
 from rovercheck.spec_model.signals.common import PHASE, PHASE_CLASS
 
-HELD = [s.name for s in SYSTEMS if "stick" not in s.inputs and "new_ay_norm" not in s.inputs]
+HELD = [s.name for s in SYSTEMS.values() if "stick" not in s.inputs and "new_ay_norm" not in s.inputs]
 ALONE = [systems()[n] for n in HELD if "other" not in {v.name for v in systems()[n].frozen}]
-STEERED = [systems()[s.name] for s in SYSTEMS if "stick" in s.inputs]
+STEERED = [systems()[s.name] for s in SYSTEMS.values() if "stick" in s.inputs]
 
 
 @pytest.mark.parametrize("limit", [120, *(s.limit for s in b2.SOURCES_MS if s.phase is not None)])

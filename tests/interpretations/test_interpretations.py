@@ -23,7 +23,7 @@ from tests.interpretations.test_board2 import FIVE_DEGREES
 
 ROOT = Path(__file__).parents[2] / "spec_model"
 FIGURES = [f for board in ("board1", "board2") for f in sorted((ROOT / board).glob("*.py"))]
-DRAWN = [system for module in BOARDS for system in _systems_of(module)]
+DRAWN = [system for module in BOARDS for system in _systems_of(module).values()]
 
 
 @pytest.mark.parametrize("file", FIGURES, ids=lambda f: f"{f.parent.name}/{f.stem}")

@@ -24,7 +24,7 @@ from rovercheck.spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCE
 from tests.profiles import examples
 from tests.test_lowering import compare
 
-SYSTEM = {system.name: fixed({}).system(system) for system in (*MONITORS, *OTHERS)}
+SYSTEM = {system.name: fixed({}).system(system) for system in (*MONITORS.values(), *OTHERS.values())}
 Value = int | float | str
 BY_REGION = {source.region: source for source in SOURCES}
 

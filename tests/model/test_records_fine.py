@@ -93,7 +93,7 @@ def test_the_record_computes_the_mean_of_the_time_stamps(
     choices: Mapping[str, str], sequence: list[tuple[int, int]]
 ) -> None:
     times = stamps(sequence)
-    assert list(answers(reception_record, times, choices)) == list(by_time_stamps(times, choices))
+    assert list(answers(reception_record(), times, choices)) == list(by_time_stamps(times, choices))
 
 
 @under_each
@@ -111,12 +111,12 @@ def test_every_run_of_the_record_is_a_run_of_the_over_approximation(
 @pytest.mark.parametrize("phase", [0, 7, 19])
 def test_a_mean_of_exactly_40_ms_at_any_phase(phase: int, limit: str, slow: bool) -> None:
     times = [100 + phase + 40 * n for n in range(11)]
-    assert list(answers(reception_record, times, {"S37": limit}))[-1] is slow
+    assert list(answers(reception_record(), times, {"S37": limit}))[-1] is slow
 
 
 @pytest.mark.parametrize(("gap", "slow"), [(120, False), (123, True)])
 def test_a_counter_that_moves_by_three_closes_three_intervals(gap: int, slow: bool) -> None:
-    system = fixed({"S40": "COUNT-DELTA"}).system(in_order("record", heartbeat_record))
+    system = fixed({"S40": "COUNT-DELTA"}).system(in_order("record", heartbeat_record()))
     machine = Interpreter(system)
     times = [100 + gap * n for n in range(5)]
     for _, arrived in at(times, first_step=20, last_step=_last_step(times), link="heartbeat"):

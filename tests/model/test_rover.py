@@ -6,6 +6,7 @@ from rovercheck.spec_model import rover
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.rover import merged, systems
+from rovercheck.spec_model.system_table import SystemTable
 
 
 @pytest.mark.parametrize("name", systems())
@@ -20,7 +21,7 @@ def test_every_system_has_a_meaning(name: str) -> None:
 def test_two_systems_of_one_name_are_refused() -> None:
     one = systems()["relay"]
     with pytest.raises(ModelError, match="Two systems are named 'relay'"):
-        merged([one, one])
+        merged([SystemTable(one), SystemTable(one)])
 
 
 def test_a_ctrl_c_while_systems_are_read_leaves_none_out(

@@ -111,7 +111,7 @@ class TestFlow:
         assert between.counts("age") and not between.counts("heard")
 
     def test_both_boards_of_the_rover(self) -> None:
-        [rover] = [system for system in COMPOSED if system.name == "rover"]
+        rover = COMPOSED["rover"]
         between = flow(_of(rover))
         assert between.lifelines == (ENVIRONMENT, "Board 1", "Board 2", "RelayAndDriver")
         assert between.origins("cmd") == between.origins("rx_update") == {"Board 2"}
@@ -125,7 +125,7 @@ class TestFlow:
             assert flow(_of(made)).lifelines[1:3] == ("Front", "Back")
 
     def test_a_chain_through_both_boards(self) -> None:
-        [chain] = [system for system in FINE if system.name == "handover_fine"]
+        chain = FINE["handover_fine"]
         between = flow(_of(chain))
         assert {"Board 1", "Board 2"} <= set(between.lifelines)
         assert between.origins("b1_requests_switch") == {"Board 1"}

@@ -181,6 +181,8 @@ def check(
         from rovercheck.checker.verify.finding_order import order_of
 
         variant = charts.variant()
+        if selection.whole:
+            _ = [*variant.unchanged().values()]  # a fault of any system is told, also of one not asked about
         properties = selection.properties(variant)
         if options.changed is not None:
             properties = _changed(properties, options.changed, variant)
@@ -200,7 +202,8 @@ def check(
         order = order_of(variant.model, variant.systems())
         guide = Guide(variant.options, selection.again, causes(variant))
         deliver = _delivering(options, variant)
-        further = _further(options, variant, settings, chains)
+        asked = None if selection.whole else {p.id for p in properties}
+        further = _further(options, variant, settings, chains, asked)
         return run(
             CheckRequest(
                 properties,
@@ -293,9 +296,10 @@ def _keeping(kept: "ToldStore | None", variant: "Variant") -> "Callable[[Sequenc
     if kept is None:
         return unkept
     from rovercheck.checker.commands.check.unchanged import ToldModel, ToldProperty, keepable
+    from rovercheck.properties.catalogue import as_written
 
     def keep(found: "Sequence[ToldVerdict]") -> None:
-        properties = {id: ToldProperty(p.on, p.costly) for id, p in variant.properties().items()}
+        properties = {id: ToldProperty(p.on, p.costly) for id, p in as_written().items()}
         told = {one.id: replace(one, strict=False) for one in found if keepable(one)}
         kept.add(ToldModel(properties, list(variant.systems()), told))
 
@@ -336,20 +340,9 @@ def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":
 
     if not (options.junit or options.sarif or options.annotations):
         return undelivered
-    from rovercheck.checker.commands.check.ci import Reports
-    from rovercheck.checker.verify.finding_order import order_of
+    from rovercheck.checker.commands.check.ci import reporting
 
-    reports = Reports(
-        order_of(variant.model, variant.systems()),
-        options.junit,
-        options.sarif,
-        options.annotations or "",
-        variant.name,
-        variant.options,
-        options.as_json,
-    )
-    reports.possible()
-    return reports.write
+    return reporting(options, variant)
 
 
 def _chains(variant: "Variant") -> "Chains | None":
@@ -362,14 +355,21 @@ def _chains(variant: "Variant") -> "Chains | None":
 
 
 def _further(
-    options: CheckOptions, variant: "Variant", search: "SearchSettings", chains: "Chains | None"
+    options: CheckOptions,
+    variant: "Variant",
+    search: "SearchSettings",
+    chains: "Chains | None",
+    asked: set[str] | None,
 ) -> "CheckExtras":
-    """What is asked of the verdicts; faults are kept of the charts as they are."""
+    """What is asked of the verdicts; faults are kept of the charts as they are.
+
+    Of what is kept only that is read which is about the properties ``asked`` for (None: all).
+    """
     from rovercheck.checker.commands.check.further import CheckExtras, noticing
 
-    further = CheckExtras(noticing=None if variant.name else noticing(variant.model))
+    further = CheckExtras(noticing=None if variant.name else noticing(variant.model, asked))
     if not options.no_premises:
-        premises = _premises(options, variant, search)
+        premises = _premises(options, variant, search, asked)
         further = replace(further, on_result=premises.on_result, cases=premises)
     if options.record_invariants:
         from rovercheck.checker.commands.check.invariants import InvariantRecorder
@@ -378,7 +378,9 @@ def _further(
     return further if chains is None else replace(further, chains=chains.standings)
 
 
-def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings") -> "PremiseSearch":
+def _premises(
+    options: CheckOptions, variant: "Variant", search: "SearchSettings", asked: set[str] | None
+) -> "PremiseSearch":
     """Checks whether the premises of proofs occur, and records the runs if wanted."""
     from rovercheck.checker.commands.check.premises import PremiseSearch, recordable
     from rovercheck.checker.model.kept_runs import file_of, read
@@ -386,7 +388,9 @@ def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings
     model, keep = variant.model, options.record_premises
     if keep:
         recordable(model, variant.name)
-    return PremiseSearch(model, variant.systems(), read(file_of(model)), search, options.quiet, keep)
+    return PremiseSearch(
+        model, variant.systems(), read(file_of(model), only=asked), search, options.quiet, keep
+    )
 
 
 def _engine_choice(engine: str, every: bool) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from secrets import token_hex
+from typing import TYPE_CHECKING
 
 from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
@@ -20,8 +21,13 @@ from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace, counted_ticks
 from rovercheck.checker.results.verdict import Exhausted, Unknown, Violated
 from rovercheck.checker.verify.checked import CheckedProperty, length
-from rovercheck.checker.verify.finding_order import FindingOrder
+from rovercheck.checker.verify.finding_order import FindingOrder, order_of
 from rovercheck.properties.forms import Reachable
+
+if TYPE_CHECKING:
+    from rovercheck.checker.commands.check import CheckOptions
+    from rovercheck.checker.commands.check.run import ResultDelivery
+    from rovercheck.checker.model.variant import Variant
 
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The file, named by GitHub, to which a step adds its summary."""
@@ -85,6 +91,21 @@ def _summarised(report: CiReport) -> None:
                 stream.write(summary(report))
         except OSError as error:
             raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
+
+
+def reporting(options: "CheckOptions", variant: "Variant") -> "ResultDelivery":
+    """Writes the reports that are asked for.  Raises ``UsageError`` where one cannot be written."""
+    reports = Reports(
+        order_of(variant.model, variant.systems()),
+        options.junit,
+        options.sarif,
+        options.annotations or "",
+        variant.name,
+        variant.options,
+        options.as_json,
+    )
+    reports.possible()
+    return reports.write
 
 
 def finding(compared: CheckedProperty, order: FindingOrder, options: str = "") -> CiFinding:

@@ -61,13 +61,16 @@ def needs_mutant(prop: Property) -> bool:
     return not prop.costly and not isinstance(prop.form, Reachable | Unbounded)
 
 
-def noticing(model: Model) -> frozenset[str] | None:
-    """The properties that notice a fault, or the charts as they are; None if no kills are recorded."""
+def noticing(model: Model, only: Collection[str] | None = None) -> frozenset[str] | None:
+    """The properties that notice a fault, or the charts as they are; None if no kills are recorded.
+
+    With ``only``, those among these.
+    """
     place = file_of(model, KILLS)
     if not place.exists():
         return None
     broken = {id for id in model.properties if model.expected(id).verdict == "violated"}
-    return frozenset(broken | read(place, KILLS).keys())
+    return frozenset(broken | read(place, KILLS, only).keys())
 
 
 NOTHING_FURTHER = CheckExtras()

@@ -16,7 +16,6 @@ from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Proved, Run, StoredRun, Unknown
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.runs.known_runs import reached, run_of
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property
 from rovercheck.properties.premise import premise
@@ -139,6 +138,8 @@ def _shown(case: Property, system: System, run: Run, store: "VerdictStore | None
     before = store.read(name) if store is not None and not store.recheck else None
     if before is not None and isinstance(before.verdict.because, StoredRun):
         return before.verdict.because.run
+    from rovercheck.checker.verify.runs.known_runs import reached
+
     found = reached(system, [case], [run]).get(case.id)
     if found is not None and store is not None:
         shown = StoredRun(found, len(found) * system.tick_ms)
@@ -166,6 +167,8 @@ def _searched(
 
 def premise_case(one: Result, systems: Mapping[str, System]) -> PremiseCase:
     """What came of the search for a case."""
+    from rovercheck.checker.verify.runs.known_runs import run_of
+
     match one.verdict:
         case Unknown(reason):
             return PremiseCase(None, "not known: " + UNDECIDED.sub(r"\1 within the limits", reason))

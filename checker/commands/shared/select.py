@@ -52,8 +52,8 @@ def pick_properties(
 def _matching(id: str, known: Mapping[str, Property]) -> list[Property]:
     if id in known:
         return [known[id]]
-    forms = [p for name, p in known.items() if name.startswith(id) and not name[len(id)].isdigit()]
-    return forms or [pick("property", id, known)]
+    forms = [name for name in known if name.startswith(id) and not name[len(id)].isdigit()]
+    return [known[name] for name in forms] or [pick("property", id, known)]
 
 
 def _distinct(properties: Iterable[Property]) -> list[Property]:

@@ -9,7 +9,6 @@ from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.model import Model
-from rovercheck.checker.model.load import load
 from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.ambiguity import ANY, ambiguities
@@ -50,6 +49,8 @@ def pick_variant(
     Raises ``UsageError`` or ``ModelError``.
     """
     if path is not None:
+        from rovercheck.checker.model.load import load
+
         return _own(load(path), chosen, repair, dropped)
     choices = _choices(chosen)
     without = _dropped(dropped, systems(choices))
