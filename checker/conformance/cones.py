@@ -265,7 +265,7 @@ def _read_twice(group: Sequence[int], parts: Sequence[LogPart], cuts: Iterable[s
 def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone:
     lowered = replace(lower(system), checks=())
     told = group.seen | group.cuts
-    told_all = all(v.name in told for v in lowered.inputs)  # then nothing lies between, and no slice says more
+    told_all = all(v.name in told for v in lowered.inputs)  # then nothing lies between
     numbers = [] if told_all else [o for o in group.outputs if measured(o)]
     free = frozenset(o.name for o in numbers if _between(_least(lowered, [o]), told))
     own = tuple(o for o in group.outputs if o.name not in free)

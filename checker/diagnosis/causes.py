@@ -56,10 +56,19 @@ class CutSearch:
 
 @dataclass(frozen=True)
 class CauseGroups:
-    """All deviations of a board, each under one cause; ``cut``: searches that ended before their end."""
+    """All deviations of a board, each under one cause.
+
+    ``cut``: searches that the time ended; ``left_out``: runs that deviate and were not looked at.
+    """
 
     causes: tuple[DeviationCause, ...] = ()
     cut: tuple[CutSearch, ...] = ()
+    left_out: int = 0
+
+    @property
+    def searched(self) -> bool:
+        """Whether some cause was found."""
+        return any(one.change is not None or one.input for one in self.causes)
 
 
 def by_itself(deviations: Iterable[Deviation]) -> CauseGroups:

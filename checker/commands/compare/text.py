@@ -19,7 +19,7 @@ from rovercheck.checker.compare.smaller import columns
 from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownJudgement
-from rovercheck.checker.diagnosis.causes import DeviationCause
+from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause, by_itself
 from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 
@@ -39,7 +39,21 @@ class CrosscheckReport:
     judgement: KnownJudgement = field(default_factory=lambda: KnownJudgement({}))
     with_known: bool = False
     """Whether known deviations were named, or are to be written."""
-    causes: Sequence[DeviationCause] = ()
+    groups: CauseGroups = field(default_factory=CauseGroups)
+
+    @property
+    def findings(self) -> Sequence[DeviationCause]:
+        """The deviations, those of one cause together; where none was looked for, each by itself."""
+        return self.groups.causes or by_itself(self.result.deviations).causes
+
+    def mismatch(self, one: Deviation) -> StepMismatch:
+        """A run in whose last step a deviation is met."""
+        return next(m for m in self.result.mismatches if m.deviation and m.deviation.scope == one.scope)
+
+    def is_small(self, finding: DeviationCause) -> bool:
+        """Whether it is told in full."""
+        small = {m.deviation.scope for m in self.result.mismatches[: self.result.small] if m.deviation}
+        return finding.first.scope in small
 
     @property
     def differs(self) -> bool:
@@ -54,38 +68,43 @@ class CrosscheckReport:
         return result.conclusive and not self.differs and not (result.mismatches and result.undecided)
 
 
-def _causes(of: CrosscheckReport) -> Iterator[str]:
-    """The deviations by cause, those of each by their numbers."""
-    numbers = {one.scope: number for number, one in enumerate(of.result.deviations, 1)}
-    if of.causes:
-        yield ""
-        yield f"The deviations have {counted(len(of.causes), 'cause', 'causes')}:"
-    for cause in of.causes:
-        told = ", ".join(str(numbers[one.scope]) for one in cause.deviations)
-        says = behaves_like(cause.change) if cause.change else f"{cause.part or 'the board'}: no change found"
-        yield _wrapped(f"- {says}: {told}", "  ")
+def says(cause: DeviationCause) -> str:
+    """What explains the deviations of a cause; empty where nothing does."""
+    if cause.change is not None:
+        return behaves_like(cause.change)
+    return f"{cause.part} behaves as if it had other values of {cause.input}" if cause.input else ""
 
 
 def often(deviation: Deviation, result: CompareResult) -> str:
     """How often it was met, and where first: there its run is the shortest."""
-    runs = f"{deviation.runs:,} of {counted(result.coverage.runs, 'run', 'runs')}"
-    steps = counted(deviation.count, "step", "steps")
-    return f"in {runs}, {steps}; first in step {deviation.first.tick} of {deviation.origin}"
+    first = f"first in step {deviation.first.tick} of {deviation.origin}"
+    return f"in {_times(deviation.runs, deviation.count, result)}; {first}"
+
+
+def in_all(cause: DeviationCause, result: CompareResult) -> str:
+    """How often some deviation of a cause was met."""
+    return _times(cause.runs, cause.ticks, result)
+
+
+def _times(runs: int, ticks: int, result: CompareResult) -> str:
+    return f"{runs:,} of {counted(result.coverage.runs, 'run', 'runs')}, {counted(ticks, 'step', 'steps')}"
 
 
 def report(of: CrosscheckReport) -> str:
     """The whole report of one board."""
     result = of.result
     lines = [_wrapped(note if talkative() else note.partition("\n")[0]) for note in result.notes]
-    for number, found in enumerate(shown(result), 1):
-        told = _mismatch(number, found, of) if isinstance(found, StepMismatch) else _failure(number, found)
-        lines += ["", *told, *_test(of.files, number)]
+    full = [one for one in of.findings if of.is_small(one)]
+    for number, one in enumerate(full, 1):
+        lines += ["", *_mismatch(number, one, of), *_test(of.files, number)]
+    for number, failure in enumerate(shown(result)[result.small :], result.small + 1):
+        assert isinstance(failure, Failure)
+        lines += ["", *_failure(number, failure), *_test(of.files, number)]
     for failure in result.failures:
         if not failure.steps:
             lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
-    for part in _by_part(result):
-        lines += ["", *(_in_short(*part[0], of) if len(part) == 1 else _together(part, of))]
-    lines += _causes(of)
+    for part in _by_part(of, full):
+        lines += ["", *(_in_short(*part[0], of) if len(part) == 1 else _together(part, of, full))]
     return "\n".join([*lines, *([""] if lines else []), *_summary(of)])
 
 
@@ -108,58 +127,77 @@ def _wrapped(text: str, indent: str = "") -> str:
     return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
 
 
-def _by_part(result: CompareResult) -> Iterator[list[tuple[int, StepMismatch]]]:
-    """The mismatches without inputs with their numbers, those of one chart or block together."""
-    found: dict[str, list[tuple[int, StepMismatch]]] = {}
-    for number, one in enumerate(result.mismatches[result.small :], result.small + 1):
-        found.setdefault(_part(one), []).append((number, one))
+Numbered = tuple[int, DeviationCause]
+
+
+def _by_part(of: CrosscheckReport, full: Sequence[DeviationCause]) -> Iterator[list[Numbered]]:
+    """The findings that are not told in full with their numbers, those of one chart or block together."""
+    found: dict[str, list[Numbered]] = {}
+    rest = [one for one in of.findings if one not in full]
+    for number, one in enumerate(rest, len(full) + 1):
+        found.setdefault(one.part, []).append((number, one))
     yield from found.values()
 
 
-def _part(mismatch: StepMismatch) -> str:
-    assert mismatch.deviation is not None, "what a search found"
-    return mismatch.deviation.scope.part
-
-
-def _together(found: Sequence[tuple[int, StepMismatch]], of: CrosscheckReport) -> Iterator[str]:
-    """What one chart or block does otherwise, a line for each deviation: often it is one cause."""
-    board, part = found[0][1].board.name, _part(found[0][1])
-    more = "more " if part in map(_part, of.result.mismatches[: of.result.small]) else ""
+def _together(
+    found: Sequence[Numbered], of: CrosscheckReport, full: Sequence[DeviationCause]
+) -> Iterator[str]:
+    """What one chart or block does otherwise, a line for each finding."""
+    board, part = of.result.board.name, found[0][1].part
+    more = "more " if part in {one.part for one in full} else ""
     yield _wrapped(f"✗ {board}, {part or 'what no part decides'} differs in {len(found)} {more}ways:")
     for number, one in found:
-        deviation = one.deviation
-        assert deviation is not None, "what a search found"
-        says = headline(deviation).removeprefix(f"{part}: ")
-        runs = counted(deviation.runs, "run", "runs")
-        yield _wrapped(f"{number}. {says}, in {runs}{_mark(one, of)}", "   ")
-        for move in deviation.scope.charts:
+        told = headline(one.first).removeprefix(f"{part}: ")
+        runs = counted(one.first.runs, "run", "runs")
+        yield _wrapped(f"{number}. {told}, in {runs}{_mark(one, of)}", "   ")
+        for move in one.first.scope.charts:
             yield _wrapped(move.removeprefix(f"{part}: "), "      ")
+        yield from _cause(one, of, "      ")
 
 
-def _in_short(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
-    """A mismatch without its inputs: what differs, how often, what the charts do there."""
-    deviation = mismatch.deviation
-    assert deviation is not None, "what a search found"
-    yield _wrapped(f"✗ {number}. {mismatch.board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
-    yield _wrapped(f"{often(deviation, of.result)}", "   ")
-    for move in deviation.scope.charts:
+def _in_short(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterator[str]:
+    """A finding without its inputs: what differs, how often, what the charts do there, and why."""
+    yield _wrapped(f"✗ {number}. {of.result.board.name}, {headline(one.first)}.{_mark(one, of)}")
+    yield _wrapped(f"{often(one.first, of.result)}", "   ")
+    for move in one.first.scope.charts:
         yield _wrapped(move, "     ")
+    yield from _cause(one, of, "   ")
 
 
-def _mark(mismatch: StepMismatch, of: CrosscheckReport) -> str:
-    if not of.with_known or mismatch.deviation is None:
+def _cause(one: DeviationCause, of: CrosscheckReport, indent: str) -> Iterator[str]:
+    """What explains a finding, and in which other ways it shows."""
+    if told := says(one):
+        yield _wrapped(f"cause: {told}.", indent)
+    if len(one.deviations) > 1:
+        others = counted(len(one.deviations) - 1, "other way", "other ways")
+        yield _wrapped(f"it shows in {others}, in all in {in_all(one, of.result)}:", indent)
+    for other in one.deviations[1:]:
+        yield _wrapped(f"- {also(other, one)}", f"{indent}  ")
+
+
+def also(other: Deviation, one: DeviationCause) -> str:
+    """Another way in which a finding shows: what differs, where the charts are, in how many runs."""
+    moves = [move.removeprefix(f"{one.part}: ") for move in other.scope.charts]
+    told = headline(other).removeprefix(f"{one.part}: ")
+    where = f" ({'; '.join(moves)})" if moves else ""
+    return f"{told}{where}, in {counted(other.runs, 'run', 'runs')}"
+
+
+def _mark(one: DeviationCause, of: CrosscheckReport) -> str:
+    if not of.with_known:
         return ""
-    judged = of.judgement.of(mismatch.deviation)
+    judged = of.judgement.of(one.first)
     return f" ({mark(judged.word, judged.id)})"
 
 
 # --- a mismatch ---------------------------------------------------------------------------------------
 
 
-def _mismatch(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
+def _mismatch(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterator[str]:
+    mismatch = of.mismatch(one.first)
     board, deviation = mismatch.board, mismatch.deviation
     assert deviation is not None, "what a search found"
-    yield _wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
+    yield _wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(one, of)}")
     yield _wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
     time = f"{mismatch.tick * board.tick_ms / 1000:g} s"
     run = "a small run" if mismatch.small else "that run"
@@ -172,6 +210,7 @@ def _mismatch(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iter
         actual = "missing" if d.actual is None else signals[d.name].show(d.actual)
         yield f"   {d.name:<26}{signals[d.name].show(d.expected):<24}{actual}"
     yield from _moves(mismatch, deviation)
+    yield from _cause(one, of, "   ")
 
 
 def _met(deviation: Deviation, result: CompareResult) -> Deviation:
@@ -288,18 +327,30 @@ def _summary(report: CrosscheckReport) -> Iterator[str]:
             yield _wrapped(untried(stage), "  ")
     if _given_up(result):
         yield _wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
-    if result.small < len(result.mismatches):
+    if result.small < len(report.findings):
         yield _wrapped(
-            f"Deviations with a small run and a test: {result.small} of {len(result.mismatches)}; "
-            f"all of them with --mismatches {len(result.mismatches)}.", "  "
+            f"Findings with a small run and a test: {result.small} of {len(report.findings)}; "
+            f"all of them with --mismatches {len(report.findings)}.", "  "
         )  # fmt: skip
-    if len(set(map(_part, result.mismatches))) < len(result.mismatches) and not report.causes:
-        yield _wrapped("Which of them have one cause, and which one, is looked for with --causes.", "  ")
+    for line in searched(report):
+        yield _wrapped(line, "  ")
     if result.uncompared:
         yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
     if result.missing and not _given_up(result):
         yield f"  Transitions that no run took ({len(result.missing)}; some cannot be):"
         yield from (_wrapped(str(transition), "    ") for transition in result.missing)
+
+
+def searched(of: CrosscheckReport) -> Iterator[str]:
+    """Where causes were not looked for to the end."""
+    for cut in of.groups.cut:
+        yield (
+            f"Causes in {cut.part}: {cut.tried:,} changes tried in {cut.seconds:.0f} s, not all; more with "
+            "--seconds S. Deviations of one cause may be told as several there."
+        )
+    if of.groups.left_out:
+        runs = counted(of.groups.left_out, "run that deviates", "runs that deviate")
+        yield f"Causes were looked for without {runs}, of which others show the deviations, too."
 
 
 def untried(stage: CompareStage) -> str:
@@ -328,11 +379,15 @@ def _verdict(of: CrosscheckReport) -> str:
 def _differences(of: CrosscheckReport) -> Iterator[str]:
     result = of.result
     if result.mismatches:
-        known = len(result.mismatches) - of.judgement.unknown if of.judgement.found else 0
+        findings = of.findings
+        words = [of.judgement.of(one.first).word for one in findings] if of.judgement.found else []
+        known = words.count("known")
         told = f", {known} of them known" if known else ""
-        parts = len(set(map(_part, result.mismatches)))
-        of_parts = f" of {counted(parts, 'part', 'parts')}" if parts < len(result.mismatches) else ""
-        yield counted(len(result.mismatches), "deviation", "deviations") + of_parts + told
+        parts = len({one.part for one in findings})
+        of_parts = f" of {counted(parts, 'part', 'parts')}" if parts < len(findings) else ""
+        ways = len(result.mismatches)
+        shown_in = f", which show in {ways} ways" if ways > len(findings) else ""
+        yield counted(len(findings), "finding", "findings") + of_parts + told + shown_in
     if result.failures:
         gave_up = ", then the search gave up" if _given_up(result) else ""
         yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"
