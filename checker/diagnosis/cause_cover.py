@@ -24,6 +24,12 @@ from rovercheck.spec_model.lang.system import System
 MOST_CAUSES = 8
 """Changes of one part that are put on top of each other."""
 
+NEAREST = 3
+"""Changes that explain the same of which it is tried whether they do so on top of others."""
+
+MORE_TIME = 1.5
+"""Times the time for changes, after which those found are not put on top of each other any more."""
+
 WITNESSES = 2
 """Runs in which a deviation comes first that a change must get past before all runs are tried."""
 
@@ -97,14 +103,15 @@ def covered(
     """The changes that explain the deviations of one part, which are among ``deviations``."""
     found = PartCover(evidence, deviations)
     start = clock()
-    _CoverSearch(found, start + seconds, clock).run()
+    _CoverSearch(found, start, seconds, clock).run()
     found.seconds = clock() - start
     return found
 
 
 class _CoverSearch(HypothesisSearch):
-    def __init__(self, found: PartCover, until: float, clock: Clock) -> None:
-        super().__init__(found.evidence, until, clock)
+    def __init__(self, found: PartCover, start: float, seconds: float, clock: Clock) -> None:
+        super().__init__(found.evidence, start + seconds, clock)
+        self._end = start + MORE_TIME * seconds
         self._cover = found
         self._name = found.evidence.name
         self._rows = found.rows = rows_of(found.evidence, found.deviations)
@@ -113,7 +120,8 @@ class _CoverSearch(HypothesisSearch):
         self._base: list[Wrong] = []
         self._left: frozenset[int] = frozenset()
         self._witnesses: list[Witness] = []
-        self._first = self._explained_now = frozenset[int]()
+        self._first = frozenset[int]()
+        self._is_enough = False
         self._at_power_up = False
 
     def run(self) -> None:
@@ -122,7 +130,7 @@ class _CoverSearch(HypothesisSearch):
         self._left = frozenset(n for n in self._rows if self._rows[n])
         self._system = self._evidence.group.system
         while len(self._cover.changes) < MOST_CAUSES:
-            self._good, self._explained_now = [], frozenset()
+            self._good, self._is_enough = [], False
             self._witnesses = self._first_cases()
             self._first = frozenset(w.place for w in self._witnesses if not w.before)
             self._at_power_up = any(w.last == 0 for w in self._witnesses)
@@ -141,14 +149,12 @@ class _CoverSearch(HypothesisSearch):
         """The best, and on top of it what explains something else."""
         self._accept(good[0])
         while len(self._cover.changes) < MOST_CAUSES:
-            rest = [one for one in good if one.explains & self._left]
-            rest.sort(key=lambda one: (-len(one.explains & self._left), one.rank))
-            for one in rest:
-                if self._clock() > self._until or self._again(one):
-                    break
-            else:
-                return
-            if self._clock() > self._until:
+            rest: dict[frozenset[int], list[CoveringChange]] = {}
+            for one in good:
+                if own := one.explains & self._left:
+                    rest.setdefault(own, []).append(one)
+            nearest = [one for own in sorted(rest, key=len, reverse=True) for one in rest[own][:NEAREST]]
+            if not any(self._again(one) for one in nearest if self._clock() < self._end):
                 return
 
     def _again(self, one: CoveringChange) -> bool:
@@ -183,8 +189,11 @@ class _CoverSearch(HypothesisSearch):
 
     @property
     def enough(self) -> bool:
-        """Whether all is explained that comes first in some run; what comes later is looked at then."""
-        return bool(self._first) and self._first <= self._explained_now
+        """Whether one change explains all that comes first in some run; what comes later is looked at then.
+
+        Where several do it together, one that is farther from the charts may explain as much.
+        """
+        return self._is_enough
 
     # --- what a change must get past ---
 
@@ -240,7 +249,7 @@ class _CoverSearch(HypothesisSearch):
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
         cases = sum(len(old) - len(new) for old, new in zip(self._base, wrong, strict=True))
-        self._explained_now |= explains
+        self._is_enough = self._is_enough or (bool(self._first) and self._first <= explains)
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
 
