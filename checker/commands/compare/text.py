@@ -386,7 +386,8 @@ def _differences(of: CrosscheckReport) -> Iterator[str]:
         parts = len({one.part for one in findings})
         of_parts = f" of {counted(parts, 'part', 'parts')}" if parts < len(findings) else ""
         ways = len(result.mismatches)
-        shown_in = f", which show in {ways} ways" if ways > len(findings) else ""
+        show = "show" if len(findings) > 1 else "shows"
+        shown_in = f", which {show} in {ways} ways" if ways > len(findings) else ""
         yield counted(len(findings), "finding", "findings") + of_parts + told + shown_in
     if result.failures:
         gave_up = ", then the search gave up" if _given_up(result) else ""
