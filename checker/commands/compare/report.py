@@ -5,16 +5,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 
+from rovercheck.checker.commands.compare.cause_text import also, in_all, says, searched
 from rovercheck.checker.commands.compare.places import ImplementationPlaces
-from rovercheck.checker.commands.compare.text import (
-    CrosscheckReport,
-    also,
-    failure_cause,
-    in_all,
-    says,
-    searched,
-    untried,
-)
+from rovercheck.checker.commands.compare.text import CrosscheckReport, failure_cause, untried
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.commands.shared.output import counted
@@ -103,7 +96,7 @@ class BoardRecord:
                 f"shown are the {len(result.notable)} in which a finding is met first or for longest."
             )
         yield from known_lines(self.of.judgement)
-        yield from (f"{result.board.name}: {line}" for line in searched(self.of))
+        yield from (f"{result.board.name}: {line}" for line in searched(self.of.groups))
 
     def gaps(self) -> Iterator[tuple[str, str]]:
         """What was compared in no run, and why."""

@@ -6,11 +6,12 @@ from pathlib import Path
 from shlex import quote
 
 from rovercheck.checker.board_tests.rows import in_rows
+from rovercheck.checker.commands.compare.cause_text import cause_lines, searched, times, wrapped
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
-from rovercheck.checker.commands.shared.output import counted, text_width
+from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.silence import talkative
-from rovercheck.checker.commands.shared.text_wrap import filled, whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.coverage import taken
 from rovercheck.checker.compare.reproduce import script_of
@@ -20,7 +21,6 @@ from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownJudgement
 from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause, by_itself
-from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 
 BEFORE = 3
@@ -68,32 +68,16 @@ class CrosscheckReport:
         return result.conclusive and not self.differs and not (result.mismatches and result.undecided)
 
 
-def says(cause: DeviationCause) -> str:
-    """What explains the deviations of a cause; empty where nothing does."""
-    if cause.change is not None:
-        return behaves_like(cause.change)
-    return f"{cause.part} behaves as if it had other values of {cause.input}" if cause.input else ""
-
-
 def often(deviation: Deviation, result: CompareResult) -> str:
     """How often it was met, and where first: there its run is the shortest."""
     first = f"first in step {deviation.first.tick} of {deviation.origin}"
-    return f"in {_times(deviation.runs, deviation.count, result)}; {first}"
-
-
-def in_all(cause: DeviationCause, result: CompareResult) -> str:
-    """How often some deviation of a cause was met."""
-    return _times(cause.runs, cause.ticks, result)
-
-
-def _times(runs: int, ticks: int, result: CompareResult) -> str:
-    return f"{runs:,} of {counted(result.coverage.runs, 'run', 'runs')}, {counted(ticks, 'step', 'steps')}"
+    return f"in {times(deviation.runs, deviation.count, result)}; {first}"
 
 
 def report(of: CrosscheckReport) -> str:
     """The whole report of one board."""
     result = of.result
-    lines = [_wrapped(note if talkative() else note.partition("\n")[0]) for note in result.notes]
+    lines = [wrapped(note if talkative() else note.partition("\n")[0]) for note in result.notes]
     full = [one for one in of.findings if of.is_small(one)]
     for number, one in enumerate(full, 1):
         lines += ["", *_mismatch(number, one, of), *_test(of.files, number)]
@@ -102,7 +86,7 @@ def report(of: CrosscheckReport) -> str:
         lines += ["", *_failure(number, failure), *_test(of.files, number)]
     for failure in result.failures:
         if not failure.steps:
-            lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
+            lines += ["", wrapped(f"✗ In {failure.origin}: {failure.message}")]
     for part in _by_part(of, full):
         lines += ["", *(_in_short(*part[0], of) if len(part) == 1 else _together(part, of, full))]
     return "\n".join([*lines, *([""] if lines else []), *_summary(of)])
@@ -120,11 +104,6 @@ def shown(result: CompareResult) -> Sequence[StepMismatch | Failure]:
 def failure_cause(failure: Failure) -> str:
     """The message without the number of the step."""
     return failure.message.replace(f"step {failure.tick}:", "", 1)
-
-
-def _wrapped(text: str, indent: str = "") -> str:
-    width, then = text_width(), indent + "  "
-    return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
 
 
 Numbered = tuple[int, DeviationCause]
@@ -145,42 +124,23 @@ def _together(
     """What one chart or block does otherwise, a line for each finding."""
     board, part = of.result.board.name, found[0][1].part
     more = "more " if part in {one.part for one in full} else ""
-    yield _wrapped(f"✗ {board}, {part or 'what no part decides'} differs in {len(found)} {more}ways:")
+    yield wrapped(f"✗ {board}, {part or 'what no part decides'} differs in {len(found)} {more}ways:")
     for number, one in found:
         told = headline(one.first).removeprefix(f"{part}: ")
         runs = counted(one.first.runs, "run", "runs")
-        yield _wrapped(f"{number}. {told}, in {runs}{_mark(one, of)}", "   ")
+        yield wrapped(f"{number}. {told}, in {runs}{_mark(one, of)}", "   ")
         for move in one.first.scope.charts:
-            yield _wrapped(move.removeprefix(f"{part}: "), "      ")
-        yield from _cause(one, of, "      ")
+            yield wrapped(move.removeprefix(f"{part}: "), "      ")
+        yield from cause_lines(one, of.result, "      ")
 
 
 def _in_short(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterator[str]:
     """A finding without its inputs: what differs, how often, what the charts do there, and why."""
-    yield _wrapped(f"✗ {number}. {of.result.board.name}, {headline(one.first)}.{_mark(one, of)}")
-    yield _wrapped(f"{often(one.first, of.result)}", "   ")
+    yield wrapped(f"✗ {number}. {of.result.board.name}, {headline(one.first)}.{_mark(one, of)}")
+    yield wrapped(f"{often(one.first, of.result)}", "   ")
     for move in one.first.scope.charts:
-        yield _wrapped(move, "     ")
-    yield from _cause(one, of, "   ")
-
-
-def _cause(one: DeviationCause, of: CrosscheckReport, indent: str) -> Iterator[str]:
-    """What explains a finding, and in which other ways it shows."""
-    if told := says(one):
-        yield _wrapped(f"cause: {told}.", indent)
-    if len(one.deviations) > 1:
-        others = counted(len(one.deviations) - 1, "other way", "other ways")
-        yield _wrapped(f"it shows in {others}, in all in {in_all(one, of.result)}:", indent)
-    for other in one.deviations[1:]:
-        yield _wrapped(f"- {also(other, one)}", f"{indent}  ")
-
-
-def also(other: Deviation, one: DeviationCause) -> str:
-    """Another way in which a finding shows: what differs, where the charts are, in how many runs."""
-    moves = [move.removeprefix(f"{one.part}: ") for move in other.scope.charts]
-    told = headline(other).removeprefix(f"{one.part}: ")
-    where = f" ({'; '.join(moves)})" if moves else ""
-    return f"{told}{where}, in {counted(other.runs, 'run', 'runs')}"
+        yield wrapped(move, "     ")
+    yield from cause_lines(one, of.result, "   ")
 
 
 def _mark(one: DeviationCause, of: CrosscheckReport) -> str:
@@ -197,12 +157,12 @@ def _mismatch(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterato
     mismatch = of.mismatch(one.first)
     board, deviation = mismatch.board, mismatch.deviation
     assert deviation is not None, "what a search found"
-    yield _wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(one, of)}")
-    yield _wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
+    yield wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(one, of)}")
+    yield wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
     time = f"{mismatch.tick * board.tick_ms / 1000:g} s"
     run = "a small run" if mismatch.small else "that run"
     before = f"; other parts differ before, in {counted(mismatch.earlier, 'step', 'steps')}"
-    yield _wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
+    yield wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
     yield from _inputs(mismatch)
     signals = {o.name: o.signal for o in board.outputs}
     yield f"   {'output':<26}{'charts':<24}implementation"
@@ -210,7 +170,7 @@ def _mismatch(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterato
         actual = "missing" if d.actual is None else signals[d.name].show(d.actual)
         yield f"   {d.name:<26}{signals[d.name].show(d.expected):<24}{actual}"
     yield from _moves(mismatch, deviation)
-    yield from _cause(one, of, "   ")
+    yield from cause_lines(one, of.result, "   ")
 
 
 def _met(deviation: Deviation, result: CompareResult) -> Deviation:
@@ -220,10 +180,10 @@ def _met(deviation: Deviation, result: CompareResult) -> Deviation:
 
 def _failure(number: int, failure: Failure) -> Iterator[str]:
     time = f"{failure.tick * failure.board.tick_ms / 1000:g} s"
-    yield _wrapped(
+    yield wrapped(
         f"✗ {number}. {failure.board.name}, step {failure.tick} = {time}: it does not answer as it must."
     )
-    yield _wrapped(failure.message, "   ")
+    yield wrapped(failure.message, "   ")
     yield from _inputs(failure)
 
 
@@ -241,7 +201,7 @@ def _inputs(mismatch: StepMismatch | Failure) -> Iterator[str]:
             since = next((k for k in range(len(column), 0, -1) if column[k - 1] != last), 0) + 1
             value = _stamped(last) if signals[name].stamp else signals[name].show(_known(last))
             told = True
-            yield _wrapped(f"{name} = {value}, since step {since}", "     ")
+            yield wrapped(f"{name} = {value}, since step {since}", "     ")
     if not told:
         yield "     none"
     yield "   and before it:"
@@ -264,7 +224,7 @@ def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
     resting, step = environment(board).calm, 1
     for steps, changes, _ in in_rows(resting, {}, ((moment, {}) for moment in script_of(mismatch))):
         changed = [f"{name} = {_shown(signals[name], value)}" for name, value in changes.items()]
-        yield _wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
+        yield wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
         step += steps
 
 
@@ -279,16 +239,16 @@ def _moves(mismatch: StepMismatch, deviation: Deviation) -> Iterator[str]:
     moves = deviation.first.moves
     if moves:
         yield "   the charts:"
-        yield from (_wrapped(move, "     ") for move in moves)
+        yield from (wrapped(move, "     ") for move in moves)
     else:
-        yield _wrapped(f"{deviation.first.decided_by} is decided by no state of a chart.", "   ")
+        yield wrapped(f"{deviation.first.decided_by} is decided by no state of a chart.", "   ")
     if mismatch.earlier:
         return
     charts = {f.chart for step in mismatch.steps for f in step.fired if _moved(f.chart, moves)}
     for back in range(min(BEFORE, mismatch.tick - 1), 0, -1):
         for one in mismatch.steps[-1 - back].fired:
             if one.chart in charts:
-                yield _wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
+                yield wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
 
 
 def _moved(chart: str, moves: Sequence[str]) -> bool:
@@ -310,47 +270,33 @@ def _summary(report: CrosscheckReport) -> Iterator[str]:
     met, sides = cover.boundaries()
     ended = result.compared < cover.steps
     part = f", {result.compared:,} of them compared, as it did not survive some" if ended else ""
-    yield _wrapped(
+    yield wrapped(
         f"{_sign(report)} {result.board.name} {_verdict(report)}: {cover.steps:,} steps in "
         f"{counted(cover.runs, 'run', 'runs')}{part}; the charts took {took} of {of} transitions, "
         f"and inputs met {met} of {sides} sides of boundaries."
     )
     for line in known_lines(report.judgement):
-        yield _wrapped(line, "  ")
+        yield wrapped(line, "  ")
     for (name, because), runs in result.undecided.items():
         in_runs = counted(runs, "run", "runs")
-        yield _wrapped(
-            f"? {name}: after a deviation, not all could be decided in {in_runs}: {because}.", "  "
-        )
+        yield wrapped(f"? {name}: after a deviation, not all could be decided in {in_runs}: {because}.", "  ")
     for stage in result.stages:
         if stage.because:
-            yield _wrapped(untried(stage), "  ")
+            yield wrapped(untried(stage), "  ")
     if _given_up(result):
-        yield _wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
+        yield wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
     if result.small < len(report.findings):
-        yield _wrapped(
+        yield wrapped(
             f"Findings with a small run and a test: {result.small} of {len(report.findings)}; "
             f"all of them with --mismatches {len(report.findings)}.", "  "
         )  # fmt: skip
-    for line in searched(report):
-        yield _wrapped(line, "  ")
+    for line in searched(report.groups):
+        yield wrapped(line, "  ")
     if result.uncompared:
-        yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
+        yield wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
     if result.missing and not _given_up(result):
         yield f"  Transitions that no run took ({len(result.missing)}; some cannot be):"
-        yield from (_wrapped(str(transition), "    ") for transition in result.missing)
-
-
-def searched(of: CrosscheckReport) -> Iterator[str]:
-    """Where causes were not looked for to the end."""
-    for cut in of.groups.cut:
-        yield (
-            f"Causes in {cut.part}: {cut.tried:,} changes tried in {cut.seconds:.0f} s, not all; more with "
-            "--seconds S. Deviations of one cause may be told as several there."
-        )
-    if of.groups.left_out:
-        runs = counted(of.groups.left_out, "run that deviates", "runs that deviate")
-        yield f"Causes were looked for without {runs}, of which others show the deviations, too."
+        yield from (wrapped(str(transition), "    ") for transition in result.missing)
 
 
 def untried(stage: CompareStage) -> str:
