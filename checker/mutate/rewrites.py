@@ -172,19 +172,19 @@ def _exchanged_members(part: Chart | Block, places: Sequence[FormulaPlace]) -> I
 COMPARED, ASSIGNED = "where compared", "where assigned"
 
 
-def _compared(swap: Mapping[object, Const], node: Expr) -> Expr:
+def _compared(swap: Mapping[int, Const], node: Expr) -> Expr:
     """A comparison with one of two members as one with the other."""
     if not (isinstance(node, Apply) and node.op in COMPARISONS):
         return node
     return replace(node, args=tuple(_other(swap, arg) for arg in node.args))
 
 
-def _assigned(swap: Mapping[object, Const], node: Expr) -> Expr:
+def _assigned(swap: Mapping[int, Const], node: Expr) -> Expr:
     """Any of two members as the other; in comparisons, whose operands come first, they are put back."""
     return _other(swap, node) if isinstance(node, Const) else _compared(swap, node)
 
 
-def _other(swap: Mapping[object, Const], node: Expr) -> Expr:
+def _other(swap: Mapping[int, Const], node: Expr) -> Expr:
     if not isinstance(node, Const):
         return node
     other = swap.get(node.value)
