@@ -295,7 +295,10 @@ Pieces = dict[tuple[int, int], frozenset[tuple[str, int]]]
 
 
 def rows_of(evidence: PartEvidence, deviations: Sequence[Deviation]) -> dict[int, Pieces]:
-    """For each deviation, by its place, the rows of the runs in which it is, and what differs there."""
+    """For each deviation, by its place, the rows of the runs in which it is, and what differs there.
+
+    Numbers that follow from a discrete output are left out: they may differ for a reason of their own, too.
+    """
     found: dict[int, Pieces] = {n: {} for n, one in enumerate(deviations)}
     places: dict[tuple[DeviationScope, tuple[str, ...]], int | None] = {}
     for run in evidence.deviating:
@@ -308,7 +311,8 @@ def rows_of(evidence: PartEvidence, deviations: Sequence[Deviation]) -> dict[int
             place = places[key]
             if place is not None:
                 at = id(run), rows[mismatch.tick]
-                found[place][at] = found[place].get(at, frozenset()) | differing(mismatch)
+                own = {piece for piece in differing(mismatch) if piece[0] in scope.outputs}
+                found[place][at] = found[place].get(at, frozenset()) | own
     return found
 
 

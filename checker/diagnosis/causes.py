@@ -117,7 +117,7 @@ def cause_groups(
 def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
     """The causes of a part: its changes, then inputs that are read otherwise."""
     found = [
-        DeviationCause(part.name, change, _at(cover, places), not cover.left)
+        DeviationCause(part.name, change, _at(cover, places), not any(cover.base))
         for change, places in cover.changes
         if places
     ]
