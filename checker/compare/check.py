@@ -22,7 +22,15 @@ from rovercheck.checker.compare.own_runs import covering
 from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
 from rovercheck.checker.compare.run_follower import RecordedRun
-from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
+from rovercheck.checker.compare.search import (
+    CI,
+    CompareEffort,
+    CompareSearch,
+    Leading,
+    Progress,
+    Run,
+    effort,
+)
 from rovercheck.checker.compare.strategy import ENVIRONMENTS, environment
 from rovercheck.checker.results.board_test import BoardStep, BoardTest
 from rovercheck.checker.testgen import kept
@@ -137,13 +145,15 @@ def cross_check(
     progress: Progress = lambda search: None,
     watched: bool = False,
     deviating: Callable[[RecordedRun], None] = lambda run: None,
+    leading: Leading = lambda found, runs: found,
 ) -> CompareResult:
     """Compare an implementation with the charts of ``board1`` or ``board2``, changed ones or a model's.
 
     ``effort`` is how many runs are drawn, from which seed; ``folder`` holds further tests; ``allowance``
     says what is spent on mismatches; ``watched``: whether the result says what was put to the test;
-    ``deviating`` is given each run in which the implementation differs, to its end.  Of changed charts kept
-    runs are inputs only: what they require is computed anew.
+    ``deviating`` is given each run in which the implementation differs, to its end; ``leading`` says which
+    deviations are told in full.  Of changed charts kept runs are inputs only: what they require is computed
+    anew.
     """
     env = ENVIRONMENTS[board] if isinstance(board, str) else environment(board)
     search = CompareSearch(
@@ -154,6 +164,7 @@ def cross_check(
         progress=progress,
         watched=watched,
         deviating=deviating,
+        leading=leading,
     )
     return search.run(_known(env, folder))
 

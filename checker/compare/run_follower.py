@@ -38,7 +38,8 @@ class RecordedRun:
     @property
     def recording(self) -> Recording:
         """The run for whatever diagnoses recordings."""
-        return Recording(self.origin, frozenset(self.block.values), True, lambda: [self.block])
+        block = self.block  # and not the run, of which much more is known
+        return Recording(self.origin, frozenset(block.values), True, lambda: [block])
 
     def up_to(self, tick: int) -> "RecordedRun":
         """Its first steps."""

@@ -12,6 +12,7 @@ from rovercheck.checker.adapters.implementation import Implementation, Implement
 from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, answers, differing, played
 from rovercheck.checker.compare.coverage import TransitionCoverage
 from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.notable_runs import NotableRuns
 from rovercheck.checker.compare.result import (
     ALLOWED,
@@ -60,6 +61,8 @@ CI = effort("ci")
 
 Run = tuple[str, list[ComparedStep]]
 Progress = Callable[["CompareSearch"], None]
+Leading = Callable[[Sequence[Deviation], EvidenceRuns], Sequence[Deviation]]
+"""Says which deviations are to be told in full, the first ones first, from all of them and their runs."""
 
 
 class Enough(BaseException):
@@ -71,7 +74,8 @@ class CompareSearch:
     """One cross-check under way.
 
     ``record`` is given what the charts do in each run, ``deviating`` each run of the implementation that is
-    not theirs.  ``watched``: whether the result says what was put to the test.
+    not theirs.  ``watched``: whether the result says what was put to the test.  ``leading`` is asked once all
+    runs are done.
     """
 
     env: Environment
@@ -84,6 +88,7 @@ class CompareSearch:
     coverage: TransitionCoverage = field(init=False)
     watched: bool = False
     deviating: Callable[[RecordedRun], None] = lambda run: None
+    leading: Leading = lambda found, runs: found
     tally: DeviationTally = field(default_factory=DeviationTally)
     notable: NotableRuns = field(default_factory=NotableRuns)
     failures: list[Failure] = field(default_factory=list)
@@ -101,6 +106,7 @@ class CompareSearch:
         self._runs: dict[tuple[str, int], RecordedRun] = {}
         self._undecided = Counter[tuple[str, str]]()
         self._situations = set[Situation]()
+        self._evidence = EvidenceRuns()
 
     def run(self, runs: Iterable[Run] = ()) -> CompareResult:
         """Try these runs, then random ones; what was found so far also after Ctrl-C."""
@@ -164,7 +170,9 @@ class CompareSearch:
 
     def _make_small(self) -> None:
         """Make the mismatches small that are told in full, what explains most first."""
-        todo = self._mismatches()[: self.allowance.mismatches]
+        self.doing = "looking for causes"
+        first = self.leading(self.tally.deviations(), self._evidence)
+        todo = [self._mismatch(one) for one in first[: self.allowance.mismatches]]
         left = self.allowance.total
         for number, mismatch in enumerate(todo, 1):
             self.doing = f"making mismatch {number} of {len(todo)} small"
@@ -222,6 +230,7 @@ class CompareSearch:
         for part in found.undecided:
             self._undecided[part.part, part.because] += 1
         self.deviating(run)
+        self._evidence.add(run, groups)
         if groups:
             self.notable.add(self.coverage.runs, run, groups.values())
         for one in groups.values():

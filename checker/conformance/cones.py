@@ -265,7 +265,9 @@ def _read_twice(group: Sequence[int], parts: Sequence[LogPart], cuts: Iterable[s
 def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone:
     lowered = replace(lower(system), checks=())
     told = group.seen | group.cuts
-    free = frozenset(o.name for o in group.outputs if measured(o) and _between(_least(lowered, [o]), told))
+    told_all = all(v.name in told for v in lowered.inputs)  # then nothing lies between
+    numbers = [] if told_all else [o for o in group.outputs if measured(o)]
+    free = frozenset(o.name for o in numbers if _between(_least(lowered, [o]), told))
     own = tuple(o for o in group.outputs if o.name not in free)
     least = _least(lowered, own)
     before = frozenset(
@@ -273,7 +275,8 @@ def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone
     )
     charts = tuple(p.component for p in parts if isinstance(p.component, Chart))
     components = tuple(p.component for p in parts)
-    return LogCone(least, own, charts, before, _between(least, told), tuple(sorted(free)), components)
+    between = frozenset[str]() if told_all else _between(least, told)
+    return LogCone(least, own, charts, before, between, tuple(sorted(free)), components)
 
 
 def _least(system: TransitionSystem, outputs: Sequence[Output]) -> TransitionSystem:

@@ -1,119 +1,163 @@
-"""Deviations merged by cause: those that one change of the charts explains, or that evidence joins."""
+"""Deviations grouped by cause: those that one change of the charts explains, or that evidence joins."""
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from hashlib import sha256
 
-from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, scope_of
-from rovercheck.checker.conformance.mismatch import LogMismatch
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.recording import Recording
+from rovercheck.checker.diagnosis.cause_cover import PartCover, covered
 from rovercheck.checker.diagnosis.change import ChartChange
-from rovercheck.checker.diagnosis.evidence import PartEvidence
-from rovercheck.checker.diagnosis.result import DiagnosedPart
-from rovercheck.checker.diagnosis.search import ExplainingCause
-from rovercheck.checker.diagnosis.trial import TrialBench
-from rovercheck.spec_model.lang.errors import ModelError
-
-Explained = Mapping[DeviationScope, Counter[int | None]]
-"""By the scope of a mismatch, in how many rows each change of a cause explains it; ``None``: none does."""
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
+from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
+from rovercheck.spec_model.abstraction import Board
 
 
 @dataclass(frozen=True)
 class DeviationCause:
-    """Deviations of one cause, each in no other one.
+    """Deviations of one cause, each in no other one, those that were met in most runs first.
 
-    ``change`` explains them; ``None``: nothing does, and what they have in common are the outputs, and the
-    moves of the charts.  ``alone``: whether the changes found in the part explain
-    everything that it does otherwise.
+    ``change`` explains them.  Where it is ``None``, other values of an ``input`` do, told with the stamp that
+    the implementation computes it from; where that is empty, too, nothing does.  ``alone``: whether
+    the changes found in the part explain everything that it does otherwise.  ``runs`` and ``ticks`` are
+    those in which some of them is met.
     """
 
     part: str
     change: ChartChange | None
     deviations: tuple[Deviation, ...]
     alone: bool = False
+    input: str = ""
+    runs: int = 0
+    ticks: int = 0
+
+    @property
+    def first(self) -> Deviation:
+        """The one that is told in full."""
+        return self.deviations[0]
 
     def id(self, board: str) -> str:
         """A short name: that of the change, or of the first deviation."""
         if self.change is None:
-            return self.deviations[0].scope.id(board)
+            return self.first.scope.id(board)
         digest = sha256(repr((board, *self.change.key)).encode()).hexdigest()[:6]
         return f"{board}-{self.change.chart}-{digest}"
 
 
-def by_cause(deviations: Sequence[Deviation], parts: Iterable[DiagnosedPart]) -> tuple[DeviationCause, ...]:
-    """Every deviation under its cause, in the order of the first ones."""
-    found: dict[tuple[str, ...], list[Deviation]] = {}
-    changes: dict[tuple[str, ...], tuple[ChartChange, bool]] = {}
-    left = list(deviations)
-    for part in parts:
-        cause = part.cause or part.partial
-        if cause is None:
-            continue
-        explained = _explained(part, cause)
-        for one in [d for d in left if d.scope.part == part.name]:
-            number = _most(one, explained)
-            if number is not None:
-                change = cause.changes[number]
-                changes[change.key] = change, part.cause is not None
-                found.setdefault(change.key, []).append(one)
-                left.remove(one)
-    causes = [
-        DeviationCause(group[0].scope.part, changes[key][0], tuple(group), changes[key][1])
-        for key, group in found.items()
+@dataclass(frozen=True)
+class CutSearch:
+    """A part of which not all changes were tried in the time: ``tried`` ``of`` those met until then."""
+
+    part: str
+    tried: int
+    of: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class CauseGroups:
+    """All deviations of a board, each under one cause.
+
+    ``cut``: searches that the time ended; ``left_out``: runs that deviate and were not looked at.
+    """
+
+    causes: tuple[DeviationCause, ...] = ()
+    cut: tuple[CutSearch, ...] = ()
+    left_out: int = 0
+
+    @property
+    def searched(self) -> bool:
+        """Whether some cause was found."""
+        return any(one.change is not None or one.input for one in self.causes)
+
+
+def by_itself(deviations: Iterable[Deviation]) -> CauseGroups:
+    """Every deviation as one of its own."""
+    return CauseGroups(tuple(map(_alone, deviations)))
+
+
+def cause_groups(
+    board: Board,
+    runs: Sequence[Recording],
+    deviations: Sequence[Deviation],
+    parts: Iterable[str],
+    seconds: float,
+    progress: Callable[[str], None] = lambda _: None,
+) -> CauseGroups:
+    """The deviations in ``runs`` by cause, in the order of the first of each.
+
+    Causes are looked for in ``parts``, for so many ``seconds`` of the processor in each.  Raises what reading
+    the blocks of a run raises.
+    """
+    wanted = set(parts)
+    if not wanted:
+        return by_itself(deviations)
+    collector = EvidenceCollector(board)
+    for number, run in enumerate(runs, 1):
+        progress(f"following deviating run {number} of {len(runs)}")
+        collector.add(run)
+    found: dict[str, list[DeviationCause]] = {}
+    cut: list[CutSearch] = []
+    evidence = [one for one in collector.evidence().parts if one.name in wanted]
+    for number, part in enumerate(evidence, 1):
+        progress(f"looking for causes in {part.name}, part {number} of {len(evidence)}")
+        told = {id(d) for causes in found.values() for c in causes for d in c.deviations}
+        own = [d for d in deviations if d.scope.part == part.name and id(d) not in told]
+        cover = covered(part, own, seconds)
+        if cover.late:
+            cut.append(CutSearch(part.name, cover.tried, cover.of, cover.seconds))
+        found.setdefault(part.name, []).extend(_of_part(part, cover))
+    causes = [one for some in found.values() for one in some]
+    told = {id(d) for one in causes for d in one.deviations}
+    causes += [_alone(d) for d in deviations if id(d) not in told]
+    places = {id(d): place for place, d in enumerate(deviations)}
+    return CauseGroups(tuple(sorted(causes, key=lambda c: places[id(c.first)])), tuple(cut))
+
+
+def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
+    """The causes of a part: its changes, then inputs that are read otherwise."""
+    found = [
+        DeviationCause(part.name, change, _at(cover, places), not any(cover.base))
+        for change, places in cover.changes
+        if places
     ]
-    causes += [DeviationCause(group[0].scope.part, None, tuple(group)) for group in alike(left)]
-    places = {one.scope: place for place, one in enumerate(deviations)}
-    return tuple(sorted(causes, key=lambda c: places[c.deviations[0].scope]))
+    for name, places in explained_by_inputs(cover):
+        told = f"{name}, which is computed from {stamps(part)[name]}"
+        found.append(DeviationCause(part.name, None, _at(cover, places), False, told))
+    keys = {id(one): set(cover.rows[n]) for n, one in enumerate(cover.deviations)}
+    return [_counted(one, keys) for one in found]
 
 
-def _explained(part: DiagnosedPart, cause: ExplainingCause) -> Explained:
-    """Which change explains each row: the first after which it is right."""
-    found: dict[DeviationScope, Counter[int | None]] = {}
-    for evidence in part.evidence:
-        for mismatch, number in _numbers(evidence, cause):
-            for piece in mismatch.pieces():
-                found.setdefault(scope_of(piece), Counter())[number] += 1
-    return found
+def _at(cover: PartCover, places: Iterable[int]) -> tuple[Deviation, ...]:
+    return tuple(cover.deviations[n] for n in sorted(places))
 
 
-def _numbers(evidence: PartEvidence, cause: ExplainingCause) -> Iterator[tuple[LogMismatch, int | None]]:
-    """Each mismatch, and the change that explains it."""
-    bench = TrialBench(evidence)
-    try:
-        cones = [evidence.group.cone(change.make()) for change in cause.changes]
-    except (ModelError, StopIteration):  # other recordings, which take the part apart in another way
-        return
-    for run in evidence.deviating:
-        left = dict(run.wrong[evidence.name])
-        for number, cone in enumerate(cones):
-            wrong = set(bench.wrong_rows(cone, run))
-            yield from ((left.pop(row), number) for row in left.keys() - wrong)
-        yield from ((mismatch, None) for mismatch in left.values())
+def _counted(cause: DeviationCause, keys: Mapping[int, set[tuple[int, int]]]) -> DeviationCause:
+    """With the runs and the steps in which some deviation of it is met, each once."""
+    rows = set[tuple[int, int]]().union(*(keys[id(one)] for one in cause.deviations))
+    return replace(cause, runs=len({run for run, _ in rows}), ticks=len(rows))
 
 
-def _most(one: Deviation, explained: Explained) -> int | None:
-    """The change that explains most of a deviation's rows.
-
-    One that was made of others, such as what is always late, has the rows of its outputs.
-    """
-    rows = explained.get(one.scope)
-    if rows is None:
-        outputs = set(one.scope.outputs)
-        rows = sum((n for s, n in explained.items() if set(s.outputs) <= outputs), Counter[int | None]())
-    return rows.most_common(1)[0][0] if rows else None
+def _alone(one: Deviation) -> DeviationCause:
+    return DeviationCause(one.scope.part, None, (one,), runs=one.runs, ticks=one.count)
 
 
-def alike(deviations: Sequence[Deviation]) -> list[list[Deviation]]:
-    """Groups of deviations in which the same outputs differ after the same moves of the charts of a part.
+def split(
+    causes: Iterable[DeviationCause], apart: Callable[[Deviation], object]
+) -> tuple[DeviationCause, ...]:
+    """The causes with deviations that are to be told apart, such as known ones, in groups of their own."""
+    found: list[DeviationCause] = []
+    for cause in causes:
+        groups: dict[object, list[Deviation]] = {}
+        for one in cause.deviations:
+            groups.setdefault(apart(one), []).append(one)
+        if len(groups) == 1:
+            found.append(cause)
+            continue
+        for group in groups.values():
+            runs, ticks = max(d.runs for d in group), max(d.count for d in group)
+            found.append(replace(cause, deviations=tuple(group), runs=runs, ticks=ticks))
+    return tuple(found)
 
-    What no chart decides stays by itself.
-    """
-    groups: dict[tuple[object, ...], list[Deviation]] = {}
-    for one in deviations:
-        scope = one.scope
-        key = (scope.part, scope.kind, scope.outputs, scope.charts or scope.differences)
-        groups.setdefault(key, []).append(one)
-    return list(groups.values())
 
-
-__all__ = ["DeviationCause", "alike", "by_cause"]
+__all__ = ["CauseGroups", "CutSearch", "DeviationCause", "by_itself", "cause_groups", "split"]

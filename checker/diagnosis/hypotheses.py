@@ -8,6 +8,8 @@ from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_t
 from rovercheck.checker.mutate.delays import Delay, delays
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.rewrites import (
+    ASSIGNED,
+    COMPARED,
     Rewrite,
     extra_transitions,
     rewrites,
@@ -66,8 +68,8 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
 
 REWRITES: Mapping[str, ChangeKind] = {
     "bit": "bit", "operands": "operands", "member": "member", "negated": "negated", "signal": "signal",
-    "exchanged": "exchanged", "target": "target", "order": "order", "timer": "timer", "extra": "extra",
-    "shared": "shared",
+    "exchanged": "exchanged", "members": "exchanged", "target": "target", "order": "order", "timer": "timer",
+    "extra": "extra", "shared": "shared",
 }  # fmt: skip
 
 TOLD = {
@@ -77,6 +79,7 @@ TOLD = {
     "negated": "`{old}` is negated",
     "signal": "{new} is read in place of {old}",
     "exchanged": "{old} and {new} are exchanged",
+    "members": "{old} and {new} are exchanged where they are {site}",
     "target": "the transition to {old} leads to {new}",
     "order": "{old} is tested {new}",
     "timer": "a time of {new} instead of {old}",
@@ -86,9 +89,11 @@ TOLD = {
 
 
 def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
-    word = "signal" if kind == "exchanged" and one.new not in part.read else kind
-    text = TOLD[word].format(old=one.old, new=one.new)
-    if one.site not in ("everywhere", "memory", "buffers"):
+    word: str = "signal" if kind == "exchanged" and one.new not in part.read else kind
+    if one.kind == "members":
+        word = one.kind
+    text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
+    if one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
         text += f", {place_text(one.site)}"
     make = partial(_with_part, system, part, one.part)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)

@@ -13,7 +13,7 @@ from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.change import TIERS, ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
     delay_changes,
@@ -90,60 +90,77 @@ def diagnosed(evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = p
     return found
 
 
-class _Search:
-    def __init__(self, found: PartDiagnosis, until: float, clock: Clock) -> None:
-        self._found, self._until, self._clock = found, until, clock
-        self._evidence = found.evidence
-        self._bench = TrialBench(found.evidence)
-        self._met = MetValues(found.evidence)
-        self._outputs = len(found.evidence.cone.outputs)
-        self._some: list[ExplainingCause] = []
+class HypothesisSearch:
+    """Tries all changes of a part until the time is over; ``judge`` says what becomes of one.
 
-    def run(self) -> None:
-        """Single changes first; where none explains all, changes on top of those that explain some."""
-        drawn = self._evidence.group.system
-        self._level(drawn, ())
-        bases = self._best(self._some)
-        for _ in range(MOST_CHANGES - 1):
-            if self._found.causes or not bases:
-                break
-            self._some = []
-            for base in bases:
-                self._level(base.system, base.changes)
-                if self._found.causes:
-                    break
-            bases = self._best(self._some) or []
-        self._found.causes.sort(key=lambda c: c.nearness)
+    ``tried`` changes ``of`` those that there are.
+    """
 
-    def _best(self, some: list[ExplainingCause]) -> list[ExplainingCause]:
-        """Those that explain most without contradiction."""
-        good = [c for c in some if c.trial.wrong == 0 and c.trial.explained]
-        good.sort(key=lambda c: (-c.trial.explained, c.nearness))
-        for one in good[:1]:
-            best = self._found.partial
-            if best is None or one.trial.explained > best.trial.explained:
-                self._found.partial = one
-        return good[:BROAD]
+    def __init__(self, evidence: PartEvidence, until: float, clock: Clock) -> None:
+        self._evidence, self._until, self._clock = evidence, until, clock
+        self._bench = TrialBench(evidence)
+        self._met = MetValues(evidence)
+        self._outputs = len(evidence.cone.outputs)
+        self.tried = self.of = 0
+        self.late = False
+        """Whether the time was over before all was tried."""
 
-    def _level(self, system: System, before: tuple[ChartChange, ...]) -> None:
+    def judge(
+        self,
+        cone: LogCone,
+        change: Callable[[], ChartChange],
+        before: tuple[ChartChange, ...],
+        system: System | None,
+        parameter: Parameter | None = None,
+    ) -> bool:
+        """Note a change of the part, which is ``cone`` with it; whether it explains what it must."""
+        raise NotImplementedError
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether no transitions that are not drawn need to be tried."""
+        return False
+
+    @property
+    def enough(self) -> bool:
+        """Whether nothing more needs to be tried, though there is time."""
+        return False
+
+    def level(self, system: System, before: tuple[ChartChange, ...]) -> None:
+        """Every change of a system, from near to far, on top of those made before."""
         only = frozenset(part.name for part in parts(system.components))
-        self._limits(system, before, only)
-        changes = self._changes(system, only)
-        changes.sort(key=lambda c: c.nearness)
-        self._found.of += len(changes)
-        for change in changes:
-            if self._clock() > self._until:
-                return
-            self._found.tried += 1
-            self._try(change, before)
-        if not self._found.causes:
+        changes = sorted(self._changes(system, only), key=self.order)
+        self.of += len(changes)
+        near = sum(self.order(change) < (TIERS["limit"],) for change in changes)
+        self._each(changes[:near], before)
+        if not self.ended:
+            self._limits(system, before, only)
+        self._each(changes[near:], before)
+        if not self.satisfied:
             extra = list(extra_changes(system, only))
-            self._found.of += len(extra)
-            for change in extra:
-                if self._clock() > self._until:
-                    return
-                self._found.tried += 1
-                self._try(change, before)
+            self.of += len(extra)
+            self._each(extra, before)
+
+    def order(self, change: ChartChange) -> Nearness:
+        """What is tried first."""
+        return change.nearness
+
+    @property
+    def ended(self) -> bool:
+        """Whether no further change is to be tried: all is found, or the time is over."""
+        return self.enough or self._over
+
+    @property
+    def _over(self) -> bool:
+        self.late = self.late or self._clock() > self._until
+        return self.late
+
+    def _each(self, changes: Sequence[ChartChange], before: tuple[ChartChange, ...]) -> None:
+        for change in changes:
+            if self.ended:
+                return
+            self.tried += 1
+            self._try(change, before)
 
     def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
         found: list[ChartChange] = []
@@ -192,9 +209,91 @@ class _Search:
             return
         cone = self._cone(system)
         if cone is not None:
-            self._judge(cone, lambda: change, before, system)
+            self.judge(cone, lambda: change, before, system)
 
-    def _judge(
+    # --- limits ---
+
+    def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
+        factors = self._factors()
+        for slot in number_slots(system, only):
+            values = values_of(slot, self._met, factors)
+            self.of += len(values)
+            cones: dict[Op | None, LogCone | None] = {}
+            explained = tried = 0
+            for op, raw in sorted(values, key=lambda v: slot.change(*v).nearness):
+                made = partial(slot.change, op, raw, values[op, raw])
+                if self._over:
+                    return
+                self.tried, tried = self.tried + 1, tried + 1
+                if op not in cones:
+                    cones[op] = self._opened(slot, op)
+                cone, value = cones[op], whole(raw)
+                if cone is not None and self.judge(cone, made, before, None, (PARAMETER, value)):
+                    explained += 1
+                if explained >= 2:  # of one limit the two simplest say enough
+                    self.of -= len(values) - tried
+                    break
+
+    def _opened(self, slot: NumberSlot, op: Op | None) -> LogCone | None:
+        try:
+            return self._cone(slot.opened(op))
+        except (ModelError, AssertionError):
+            return None
+
+    def _factors(self) -> list[Fraction]:
+        """How many times what is required is recorded, of outputs that are measured."""
+        found: dict[Fraction, None] = {}
+        for run in self._evidence.deviating:
+            for _, mismatch in run.wrong[self._evidence.name][:200]:
+                for difference in mismatch.differences:
+                    if isinstance(difference.output.var.domain.sort, Num):
+                        for wanted in difference.expected[:2]:
+                            if difference.logged is not None:
+                                found.update(_ratio(wanted, difference.logged))
+            if len(found) > 40:
+                break
+        return list(found)[:40]
+
+
+class _Search(HypothesisSearch):
+    def __init__(self, found: PartDiagnosis, until: float, clock: Clock) -> None:
+        super().__init__(found.evidence, until, clock)
+        self._found = found
+        self._some: list[ExplainingCause] = []
+
+    def run(self) -> None:
+        """Single changes first; where none explains all, changes on top of those that explain some."""
+        drawn = self._evidence.group.system
+        self.level(drawn, ())
+        bases = self._best(self._some)
+        for _ in range(MOST_CHANGES - 1):
+            if self._found.causes or not bases:
+                break
+            self._some = []
+            for base in bases:
+                self.level(base.system, base.changes)
+                if self._found.causes:
+                    break
+            bases = self._best(self._some) or []
+        self._found.causes.sort(key=lambda c: c.nearness)
+        self._found.tried, self._found.of = self.tried, self.of
+
+    def _best(self, some: list[ExplainingCause]) -> list[ExplainingCause]:
+        """Those that explain most without contradiction."""
+        good = [c for c in some if c.trial.wrong == 0 and c.trial.explained]
+        good.sort(key=lambda c: (-c.trial.explained, c.nearness))
+        for one in good[:1]:
+            best = self._found.partial
+            if best is None or one.trial.explained > best.trial.explained:
+                self._found.partial = one
+        return good[:BROAD]
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether some change explains all."""
+        return bool(self._found.causes)
+
+    def judge(
         self,
         cone: LogCone,
         change: Callable[[], ChartChange],
@@ -224,49 +323,6 @@ class _Search:
         self._some.append(cause)
         return False
 
-    # --- limits ---
-
-    def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
-        factors = self._factors()
-        for slot in number_slots(system, only):
-            values = values_of(slot, self._met, factors)
-            self._found.of += len(values)
-            cones: dict[Op | None, LogCone | None] = {}
-            explained = tried = 0
-            for op, raw in sorted(values, key=lambda v: slot.change(*v).nearness):
-                made = partial(slot.change, op, raw, values[op, raw])
-                if self._clock() > self._until:
-                    return
-                self._found.tried, tried = self._found.tried + 1, tried + 1
-                if op not in cones:
-                    cones[op] = self._opened(slot, op)
-                cone, value = cones[op], whole(raw)
-                if cone is not None and self._judge(cone, made, before, None, (PARAMETER, value)):
-                    explained += 1
-                if explained >= 2:  # of one limit the two simplest say enough
-                    self._found.of -= len(values) - tried
-                    break
-
-    def _opened(self, slot: NumberSlot, op: Op | None) -> LogCone | None:
-        try:
-            return self._cone(slot.opened(op))
-        except (ModelError, AssertionError):
-            return None
-
-    def _factors(self) -> list[Fraction]:
-        """How many times what is required is recorded, of outputs that are measured."""
-        found: dict[Fraction, None] = {}
-        for run in self._evidence.deviating:
-            for _, mismatch in run.wrong[self._evidence.name][:200]:
-                for difference in mismatch.differences:
-                    if isinstance(difference.output.var.domain.sort, Num):
-                        for wanted in difference.expected[:2]:
-                            if difference.logged is not None:
-                                found.update(_ratio(wanted, difference.logged))
-            if len(found) > 40:
-                break
-        return list(found)[:40]
-
 
 def _ratio(wanted: Raw, got: Raw) -> Iterator[tuple[Fraction, None]]:
     if wanted:
@@ -279,4 +335,4 @@ def _ages(cells: Sequence[Raw | None]) -> bool:
     return sum(a != b for a, b in pairwise(some)) > len(some) / 4
 
 
-__all__ = ["ExplainingCause", "PartDiagnosis", "diagnosed"]
+__all__ = ["ExplainingCause", "HypothesisSearch", "PartDiagnosis", "diagnosed"]

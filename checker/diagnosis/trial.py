@@ -1,11 +1,12 @@
 """A changed part tried on the recordings: whether it explains them all, and what it still gets wrong."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.estimator import StateEstimator
+from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.program import BeliefOutcome, Known, NeededInputs, Step
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
@@ -16,6 +17,8 @@ MOST_STATES = 64
 
 Parameter = tuple[str, Raw]
 """An input that always has one value: a limit that is tried."""
+
+NOTHING: Mapping[int, Known] = {}
 
 Rows = Sequence[tuple[tuple[Known, ...], Known]]
 """Of each row every combination of inputs that the part may have seen, and its outputs."""
@@ -85,6 +88,25 @@ class TrialBench:
         """Every row of a run that a changed part gets wrong."""
         return self._tracked(cone, next(n for n, one in enumerate(self.runs) if one is run), None)
 
+    def passes(
+        self,
+        cone: LogCone,
+        number: int,
+        last: int | None,
+        parameter: Parameter | None = None,
+        masked: Mapping[int, Known] = NOTHING,
+    ) -> bool:
+        """Whether a changed part explains a run from its start to a row, or to its end.
+
+        ``masked``: outputs in place of those recorded in some rows; what is ``None`` is not compared.
+        """
+        step = cone.step if parameter is None else with_parameter(cone, *parameter)
+        try:
+            wrong = self._first_wrong(cone, step, number, self._prepared(cone), parameter, last, masked)
+        except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
+            return False
+        return wrong is None or (last is not None and wrong > last)
+
     def goes_further(self, at: tuple[int, int]) -> bool:
         """Whether a change that fails there has explained the first deviation of that run."""
         first = self._first[at[0]]
@@ -118,18 +140,33 @@ class TrialBench:
     # --- following ---
 
     def _first_wrong(
-        self, cone: LogCone, step: Step, number: int, rows: list[Rows | None], parameter: Parameter | None
+        self,
+        cone: LogCone,
+        step: Step,
+        number: int,
+        rows: list[Rows | None],
+        parameter: Parameter | None,
+        last: int | None = None,
+        masked: Mapping[int, Known] = NOTHING,
     ) -> int | None:
         run = self.runs[number]
         if run.run.from_power_up and not any(run.missing):
             try:
-                return self._followed(cone, step, number, rows)
+                return self._followed(cone, step, number, rows, last, masked)
             except (NeededInputs, _TooManyStates):
                 pass
         return next(self._tracked(cone, number, parameter), None)
 
-    def _followed(self, cone: LogCone, step: Step, number: int, rows: list[Rows | None]) -> int | None:
-        """The first row that is wrong, where everything that the part reads is known."""
+    def _followed(
+        self,
+        cone: LogCone,
+        step: Step,
+        number: int,
+        rows: list[Rows | None],
+        last: int | None,
+        masked: Mapping[int, Known],
+    ) -> int | None:
+        """The first row that is wrong up to ``last``, where everything that the part reads is known."""
         estimator = StateEstimator(cone, self.runs[number].run.tolerance)
 
         def agrees(outputs: Known, logged: Known) -> bool:
@@ -137,6 +174,10 @@ class TrialBench:
 
         states = list(estimator.power_up())
         for at, (options, logged) in enumerate(self._of(cone, number, rows)):
+            if last is not None and at > last:
+                return None
+            if at in masked:
+                logged = masked[at]
             if len(options) == 1 and len(states) == 1:
                 states[0], outputs = step(states[0], options[0])
                 if outputs != logged and not agrees(outputs, logged):
@@ -152,16 +193,33 @@ class TrialBench:
 
     def _tracked(self, cone: LogCone, number: int, parameter: Parameter | None) -> Iterator[int]:
         """Every row that is wrong or not decided, by a tracker, which infers what is not recorded."""
+        return (row for row, _ in self.mismatches(cone, number, parameter))
+
+    def mismatches(
+        self,
+        cone: LogCone,
+        number: int,
+        parameter: Parameter | None = None,
+        unknown: tuple[str, Collection[int]] = ("", ()),
+    ) -> Iterator[tuple[int, LogMismatch | None]]:
+        """Every row of a run that a changed part gets wrong, and what differs; ``None``: not decided.
+
+        ``unknown``: an input that may have had any value, and the rows in which.
+        """
         run = self.runs[number]
         tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up)
         place = None if parameter is None else _place(cone, parameter[0])
+        free = _place(cone, unknown[0])
         for at, (options, logged) in enumerate(self._of(cone, number, self._prepared(cone))):
             columns = [tuple(dict.fromkeys(c)) for c in zip(*options, strict=True)]
             if place is not None and parameter is not None:
                 columns[place] = (parameter[1],)
+            if free is not None and at in unknown[1]:
+                columns[free] = (None,)
             row = TrackedRow(run.ticks[at], run.lines[at], run.missing[at], tuple(columns), logged)
-            if tracker.step(row) is not None or tracker.undecided is not None:
-                yield at
+            mismatch = tracker.step(row)
+            if mismatch is not None or tracker.undecided is not None:
+                yield at, mismatch
             if tracker.undecided is not None:
                 return
 

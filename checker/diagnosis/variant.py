@@ -104,14 +104,15 @@ def applied(board: Board, variant: BoardVariant, file: str = "the variant") -> B
     system = board.system
     for number, change in enumerate(variant.changes, 1):
         try:
-            system = _with(board, system, change)
+            system = with_change(board, system, change)
         except ModelError as error:
             where = f"{file}, change {number} ({change.kind} in {change.chart})"
             raise VariantError(f"{where}: {error}") from error
     return replace(board, system=system)
 
 
-def _with(board: Board, system: System, change: WrittenChange) -> System:
+def with_change(board: Board, system: System, change: WrittenChange) -> System:
+    """The charts, or some of them, with one more change.  Raises ``ModelError`` for one that does not fit."""
     names = [part.name for part in parts(system.components)]
     if change.chart not in names:
         near = did_you_mean(change.chart, names)
@@ -180,4 +181,6 @@ def _steps(system: System, text: str) -> list[int]:
     return found
 
 
-__all__ = ["BoardVariant", "VariantError", "WrittenChange", "applied", "read_variant", "written"]
+__all__ = [
+    "BoardVariant", "VariantError", "WrittenChange", "applied", "read_variant", "with_change", "written",
+]  # fmt: skip

@@ -7,6 +7,8 @@ They are hypotheses about a cause, and many: what counts mutants does not make t
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
+from itertools import combinations
 
 from rovercheck.checker.mutate.charts import transition_lists
 from rovercheck.checker.mutate.formulas import TIMED
@@ -45,6 +47,7 @@ def rewrites(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewrite
         yield from _orders(part)
     yield from _signals(part, places, others)
     yield from _exchanged(part, others)
+    yield from _exchanged_members(part, places)
 
 
 def timer_rewrites(part: Chart | Block, step_ms: int, steps: Sequence[int]) -> Iterator[Rewrite]:
@@ -147,6 +150,45 @@ def _exchanged(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewri
                 continue
             swap = {name: other, other.name: var}
             yield Rewrite("exchanged", "everywhere", name, other.name, _renamed(part, swap))
+
+
+def _exchanged_members(part: Chart | Block, places: Sequence[FormulaPlace]) -> Iterator[Rewrite]:
+    """Two members of an enumeration in each other's place wherever they are compared, or assigned."""
+    found: dict[str, dict[tuple[object, object], Const]] = {COMPARED: {}, ASSIGNED: {}}
+    for place in places:
+        nodes = [node for node, _ in nodes_in(place.formula)]
+        compared = {id(a) for n in nodes if isinstance(n, Apply) and n.op in COMPARISONS for a in n.args}
+        for node in nodes:
+            if isinstance(node, Const) and isinstance(node.sort, Enum):
+                where = COMPARED if id(node) in compared else ASSIGNED
+                found[where].setdefault((node.value, node.sort), node)
+    for where, change in ((COMPARED, _compared), (ASSIGNED, _assigned)):
+        for one, two in combinations(found[where].values(), 2):
+            if one.sort == two.sort:
+                swap = {one.value: two, two.value: one}
+                yield Rewrite("members", where, str(one), str(two), mapped(part, partial(change, swap)))
+
+
+COMPARED, ASSIGNED = "where compared", "where assigned"
+
+
+def _compared(swap: Mapping[int, Const], node: Expr) -> Expr:
+    """A comparison with one of two members as one with the other."""
+    if not (isinstance(node, Apply) and node.op in COMPARISONS):
+        return node
+    return replace(node, args=tuple(_other(swap, arg) for arg in node.args))
+
+
+def _assigned(swap: Mapping[int, Const], node: Expr) -> Expr:
+    """Any of two members as the other; in comparisons, whose operands come first, they are put back."""
+    return _other(swap, node) if isinstance(node, Const) else _compared(swap, node)
+
+
+def _other(swap: Mapping[int, Const], node: Expr) -> Expr:
+    if not isinstance(node, Const):
+        return node
+    other = swap.get(node.value)
+    return other if other is not None and other.sort == node.sort else node
 
 
 def _renamed(part: Chart | Block, swap: Mapping[str, Var]) -> Chart | Block:

@@ -71,7 +71,7 @@ class LogReport:
         every = self.campaign.deviations[board]
         of_board = [log for log in self.campaign.logs if log.layout.board == board]
         groups = ((log.name, log.behaviour.tally.groups.values()) for log in of_board)
-        met = sightings(one, groups, every, TICK_MS, lines=True)
+        met = sightings([one], groups, every, TICK_MS, lines=True)
         found = deviation_finding(board, one, self.campaign.judgements[board], OF_LOGS, met)
         place = Place(str(self.folder / found.first.recording), found.first.line)
         if isinstance(drawn, str):

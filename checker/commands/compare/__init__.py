@@ -32,7 +32,7 @@ class ComparisonOptions:
     failures: int
     known: Path | None = None
     write_known: Path | None = None
-    causes: bool = False
+    causes: bool | None = None
     seconds: float = 60.0
 
 
@@ -71,14 +71,18 @@ class ComparisonOptions:
     callback=say_more,
     help="Also all that a compiler warns of.",
 )
-@click.option("--causes", is_flag=True, help="Merge the deviations by the change of the charts behind them.")
+@click.option(
+    "--causes/--no-causes",
+    default=None,
+    help="Look for causes in every part that deviates, or in none; else where a part does in several ways.",
+)
 @click.option(
     "--seconds",
     type=click.FloatRange(min=0, min_open=True),
     default=60.0,
     show_default=True,
     metavar="S",
-    help="With --causes: how long the causes of a part are looked for.",
+    help="How long the causes of a part are looked for.",
 )
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(
@@ -120,6 +124,7 @@ def compare(
         charts.model,
         options.known,
         options.write_known,
-        options.seconds if options.causes else None,
+        options.seconds,
+        options.causes,
     )
     return run(asked, output, as_json, files)

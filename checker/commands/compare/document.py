@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from annotated_types import MinLen
 from typing_extensions import TypedDict
 
+from rovercheck.checker.commands.compare.cause_text import says
 from rovercheck.checker.commands.compare.text import CrosscheckReport, shown
 from rovercheck.checker.commands.diagnose.document import ChangeRow, change_row
 from rovercheck.checker.commands.shared.campaign_document import CampaignDocument, campaign_document
@@ -16,7 +17,6 @@ from rovercheck.checker.compare.result import CompareResult, Failure
 from rovercheck.checker.conformance.deviations import Deviation, DeviationKind
 from rovercheck.checker.conformance.known import FoundWord
 from rovercheck.checker.diagnosis.causes import DeviationCause
-from rovercheck.checker.diagnosis.sentences import behaves_like
 from rovercheck.checker.io.document import Count, Ordinal, Text
 from rovercheck.checker.results.campaign import CampaignRecord
 from rovercheck.spec_model.abstraction import Value
@@ -90,17 +90,30 @@ class MismatchRow(TypedDict):
 
 
 class CauseGroup(TypedDict):
-    """Deviations of one cause, each in no other one."""
+    """A finding: deviations of one cause, each in no other; one by itself where no cause is known."""
 
     id: str
     part: str
     says: str
-    """The change of the charts that explains them, in words; empty where none was found."""
+    """What explains them, in words: a change of the charts, or other values of an input that is computed
+    from stamps; empty where nothing does."""
     change: ChangeRow | None
     complete: bool
     """Whether the changes found in the part explain all that it does otherwise."""
+    runs: Ordinal
+    """In how many runs some of them was met."""
+    ticks: Ordinal
+    """In how many steps of all runs."""
     deviations: Annotated[list[str], MinLen(1)]
-    """Their ids."""
+    """Their ids, that which was met in most runs first."""
+
+
+class CutSearchRow(TypedDict):
+    """A part in which not all changes were tried in the time: one cause may be several there."""
+
+    part: str
+    tried: Count
+    seconds: float
 
 
 class UndecidedRuns(TypedDict):
@@ -144,7 +157,9 @@ class ComparedRow(TypedDict):
     distinct: Count
     mismatches: list[MismatchRow]
     causes: list[CauseGroup]
-    """The deviations by cause; empty without ``--causes``."""
+    """The findings: all deviations by cause."""
+    causes_cut: list[CutSearchRow]
+    """Where the search for causes came to no end."""
     failures: list[FailureRow]
     undecided: list[UndecidedRuns]
     known: list[KnownRow]
@@ -195,7 +210,10 @@ def _row(of: CrosscheckReport) -> ComparedRow:
         "compared": result.compared,
         "distinct": len(result.mismatches),
         "mismatches": [_mismatch(m, m.deviation, of) for m in result.mismatches if m.deviation is not None],
-        "causes": [_cause(one, of) for one in of.causes],
+        "causes": [_cause(one, of) for one in of.findings],
+        "causes_cut": [
+            {"part": cut.part, "tried": cut.tried, "seconds": round(cut.seconds, 1)} for cut in of.groups.cut
+        ],
         "failures": [_failure(f, _file_of(f, of)) for f in result.failures],
         "undecided": [
             {"part": part, "because": because, "runs": runs}
@@ -210,9 +228,11 @@ def _cause(cause: DeviationCause, of: CrosscheckReport) -> CauseGroup:
     return {
         "id": cause.id(of.result.board.name),
         "part": cause.part,
-        "says": "" if change is None else behaves_like(change),
+        "says": says(cause),
         "change": None if change is None else change_row(change),
         "complete": cause.alone,
+        "runs": cause.runs,
+        "ticks": cause.ticks,
         "deviations": [of.judgement.of(one).id for one in cause.deviations],
     }
 

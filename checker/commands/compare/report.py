@@ -1,10 +1,11 @@
 """The record of a cross-check, from which its reports are written."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 
+from rovercheck.checker.commands.compare.cause_text import also, in_all, says, searched
 from rovercheck.checker.commands.compare.places import ImplementationPlaces
 from rovercheck.checker.commands.compare.text import CrosscheckReport, failure_cause, untried
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
@@ -16,7 +17,7 @@ from rovercheck.checker.compare.result import Failure
 from rovercheck.checker.compare.run_follower import MISSING, RecordedRun
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.excerpt import MOST_LANES, ExcerptWindow, excerpts
-from rovercheck.checker.diagnosis.sentences import behaves_like
+from rovercheck.checker.diagnosis.causes import DeviationCause
 from rovercheck.checker.results.campaign import (
     OF_RUNS,
     CampaignFinding,
@@ -95,6 +96,7 @@ class BoardRecord:
                 f"shown are the {len(result.notable)} in which a finding is met first or for longest."
             )
         yield from known_lines(self.of.judgement)
+        yield from (f"{result.board.name}: {line}" for line in searched(self.of.groups))
 
     def gaps(self) -> Iterator[tuple[str, str]]:
         """What was compared in no run, and why."""
@@ -113,29 +115,36 @@ class BoardRecord:
     # --- findings -----------------------------------------------------------------------------------------
 
     def findings(self) -> Iterator[CampaignFinding]:
-        """The deviations, what explains most first, then each way in which it fails to answer."""
+        """The deviations by cause, what explains most first, then each way in which it fails to answer."""
         places = ImplementationPlaces(self.of.address, self.of.result.board)
-        causes = {d.scope: behaves_like(c.change) for c in self.of.causes if c.change for d in c.deviations}
-        for one in self._every:
-            lanes = self._lanes[id(one)]
-            found = self._finding(one)
-            yield replace(
-                found,
-                lanes=lanes,
-                undrawn="" if lanes else "its run was not kept to its end",
-                cause=causes.get(one.scope, ""),
-                places=places.of(one.outputs),
-            )
+        met = {one.scope: one for one in self._every}
+        for cause in self.of.findings:
+            group = [met[one.scope] for one in cause.deviations]
+            outputs = list(dict.fromkeys(name for one in group for name in one.outputs))
+            yield replace(self._finding(cause, group), cause=says(cause), places=places.of(outputs))
         for failure in self._failures:
             yield replace(self._failed(failure), places=places.of(()))
 
-    def _finding(self, one: Deviation) -> CampaignFinding:
+    def _finding(self, cause: DeviationCause, group: Sequence[Deviation]) -> CampaignFinding:
+        """The first deviation, with what is known of all; drawn is the one that is met first."""
         result = self.of.result
-        groups = ((self._named(r), r.groups) for r in result.notable)
-        met = sightings(one, groups, self._every, result.board.tick_ms)
-        runs = f"{one.runs:,} of {counted(result.coverage.runs, 'run', 'runs')}"
-        often = ("in all", f"{runs}, {OF_RUNS.ticks(one.count)}")
-        return deviation_finding(result.board.name, one, self.of.judgement, OF_RUNS, met, [often])
+        tick_ms = result.board.tick_ms
+        groups = [(self._named(r), r.groups) for r in result.notable]
+        met = sightings(group, groups, self._every, tick_ms)
+        more = [("in all", in_all(cause, result))]
+        more += [("also", also(one, cause)) for one in group[1:]]
+        found = deviation_finding(result.board.name, group[0], self.of.judgement, OF_RUNS, met, more)
+        drawn = next(
+            (one for one in group if any(s.first == found.first for s in self._sightings(one, groups))),
+            group[0],
+        )
+        lanes = self._lanes[id(drawn)]
+        return replace(found, lanes=lanes, undrawn="" if lanes else "its run was not kept to its end")
+
+    def _sightings(
+        self, one: Deviation, groups: Sequence[tuple[str, Iterable[Deviation]]]
+    ) -> tuple[CampaignSighting, ...]:
+        return sightings([one], groups, self._every, self.of.result.board.tick_ms)
 
     @cached_property
     def _lanes(self) -> dict[int, tuple[OutputLane, ...]]:

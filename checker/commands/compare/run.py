@@ -1,12 +1,13 @@
 """``rovercheck compare``: an implementation and the charts side by side, under the same inputs."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 from rovercheck.checker.adapters import start
 from rovercheck.checker.adapters.implementation import ImplementationError
+from rovercheck.checker.commands.compare.grouping import CauseGrouping
 from rovercheck.checker.commands.compare.text import CrosscheckReport, report, shown
 from rovercheck.checker.commands.shared.campaign_files import NO_FILES, CampaignFiles
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
@@ -18,12 +19,10 @@ from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
-from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.variants import of_model, varied
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
-from rovercheck.checker.diagnosis.causes import DeviationCause, by_cause
-from rovercheck.checker.diagnosis.result import diagnose_board
+from rovercheck.checker.diagnosis.search import SECONDS
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
@@ -46,8 +45,10 @@ class CrosscheckOptions:
     model: Path | None = None
     known: Path | None = None
     write_known: Path | None = None
-    seconds: float | None = None
-    """How long the causes of a part are looked for; ``None``: not at all."""
+    seconds: float = SECONDS
+    """How long the causes of a part are looked for."""
+    causes: bool | None = None
+    """Whether in every part that deviates, or in none; ``None``: where one does in several ways."""
 
     @cached_property
     def variant(self) -> Variant:
@@ -74,14 +75,13 @@ def compare(
         address = asked.address or board.supervisor
         if not as_json:
             _announce(asked, board, address, seed)
-        deviating: list[RecordedRun] = []
-        keep = deviating.append if asked.seconds is not None else _forgotten
-        result = _checked(asked, board, address, seed, book.used, keep)
+        grouping = CauseGrouping(board, asked.seconds, asked.causes, partial(book.knows, board.name))
+        result = _checked(asked, board, address, seed, book.used, grouping)
         files = _write_tests(result, address, asked.variant, output or Path())
         judgement = _judged(book, result)
-        causes = _causes(board, result, deviating, asked.seconds) if asked.seconds is not None else ()
+        groups = grouping.of(result)
         reports.append(
-            CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used, causes)
+            CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used, groups)
         )
         if not as_json:
             out.print(report(reports[-1]), markup=False)
@@ -110,20 +110,6 @@ def _judged(book: KnownBook, result: CompareResult) -> KnownJudgement:
         return result.complete and shows(result.board, known.scope, result.situations, compared)
 
     return book.judged(result.board.name, result.deviations, shown_by)
-
-
-def _forgotten(run: RecordedRun) -> None:
-    """Without --causes nothing is to be done with a run that deviates."""
-
-
-def _causes(
-    board: Board, result: CompareResult, deviating: Sequence[RecordedRun], seconds: float
-) -> tuple[DeviationCause, ...]:
-    """The deviations by cause: of the runs that deviate, also where parts conform."""
-    with ProgressLine() as line:
-        recordings = [run.recording for run in deviating]
-        diagnosis = diagnose_board(board, recordings, seconds, line.show, deciding=False)
-    return by_cause(result.deviations, diagnosis.parts)
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:
@@ -163,7 +149,7 @@ def _checked(
     address: str,
     seed: int,
     watched: bool,
-    deviating: Callable[[RecordedRun], None],
+    grouping: CauseGrouping,
 ) -> CompareResult:
     if asked.tests is not None and not asked.tests.is_dir():
         raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
@@ -181,7 +167,7 @@ def _checked(
                 allowance=asked.allowance,
                 progress=lambda search: line.show(_doing(board, search)),
                 watched=watched,
-                deviating=deviating,
+                leading=lambda found, runs: grouping.leading(found, runs, line.show),
             )
     finally:
         implementation.close()

@@ -6,11 +6,12 @@ from pathlib import Path
 from shlex import quote
 
 from rovercheck.checker.board_tests.rows import in_rows
+from rovercheck.checker.commands.compare.cause_text import cause_lines, searched, times, wrapped
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
-from rovercheck.checker.commands.shared.output import counted, text_width
+from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.commands.shared.silence import talkative
-from rovercheck.checker.commands.shared.text_wrap import filled, whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.compare.beside import StepMismatch
 from rovercheck.checker.compare.coverage import taken
 from rovercheck.checker.compare.reproduce import script_of
@@ -19,8 +20,7 @@ from rovercheck.checker.compare.smaller import columns
 from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownJudgement
-from rovercheck.checker.diagnosis.causes import DeviationCause
-from rovercheck.checker.diagnosis.sentences import behaves_like
+from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause, by_itself
 from rovercheck.spec_model.abstraction import BoardSignal, Value
 
 BEFORE = 3
@@ -39,7 +39,21 @@ class CrosscheckReport:
     judgement: KnownJudgement = field(default_factory=lambda: KnownJudgement({}))
     with_known: bool = False
     """Whether known deviations were named, or are to be written."""
-    causes: Sequence[DeviationCause] = ()
+    groups: CauseGroups = field(default_factory=CauseGroups)
+
+    @property
+    def findings(self) -> Sequence[DeviationCause]:
+        """The deviations, those of one cause together; where none was looked for, each by itself."""
+        return self.groups.causes or by_itself(self.result.deviations).causes
+
+    def mismatch(self, one: Deviation) -> StepMismatch:
+        """A run in whose last step a deviation is met."""
+        return next(m for m in self.result.mismatches if m.deviation and m.deviation.scope == one.scope)
+
+    def is_small(self, finding: DeviationCause) -> bool:
+        """Whether it is told in full."""
+        small = {m.deviation.scope for m in self.result.mismatches[: self.result.small] if m.deviation}
+        return finding.first.scope in small
 
     @property
     def differs(self) -> bool:
@@ -54,38 +68,27 @@ class CrosscheckReport:
         return result.conclusive and not self.differs and not (result.mismatches and result.undecided)
 
 
-def _causes(of: CrosscheckReport) -> Iterator[str]:
-    """The deviations by cause, those of each by their numbers."""
-    numbers = {one.scope: number for number, one in enumerate(of.result.deviations, 1)}
-    if of.causes:
-        yield ""
-        yield f"The deviations have {counted(len(of.causes), 'cause', 'causes')}:"
-    for cause in of.causes:
-        told = ", ".join(str(numbers[one.scope]) for one in cause.deviations)
-        says = behaves_like(cause.change) if cause.change else f"{cause.part or 'the board'}: no change found"
-        yield _wrapped(f"- {says}: {told}", "  ")
-
-
 def often(deviation: Deviation, result: CompareResult) -> str:
     """How often it was met, and where first: there its run is the shortest."""
-    runs = f"{deviation.runs:,} of {counted(result.coverage.runs, 'run', 'runs')}"
-    steps = counted(deviation.count, "step", "steps")
-    return f"in {runs}, {steps}; first in step {deviation.first.tick} of {deviation.origin}"
+    first = f"first in step {deviation.first.tick} of {deviation.origin}"
+    return f"in {times(deviation.runs, deviation.count, result)}; {first}"
 
 
 def report(of: CrosscheckReport) -> str:
     """The whole report of one board."""
     result = of.result
-    lines = [_wrapped(note if talkative() else note.partition("\n")[0]) for note in result.notes]
-    for number, found in enumerate(shown(result), 1):
-        told = _mismatch(number, found, of) if isinstance(found, StepMismatch) else _failure(number, found)
-        lines += ["", *told, *_test(of.files, number)]
+    lines = [wrapped(note if talkative() else note.partition("\n")[0]) for note in result.notes]
+    full = [one for one in of.findings if of.is_small(one)]
+    for number, one in enumerate(full, 1):
+        lines += ["", *_mismatch(number, one, of), *_test(of.files, number)]
+    for number, failure in enumerate(shown(result)[result.small :], result.small + 1):
+        assert isinstance(failure, Failure)
+        lines += ["", *_failure(number, failure), *_test(of.files, number)]
     for failure in result.failures:
         if not failure.steps:
-            lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
-    for part in _by_part(result):
-        lines += ["", *(_in_short(*part[0], of) if len(part) == 1 else _together(part, of))]
-    lines += _causes(of)
+            lines += ["", wrapped(f"✗ In {failure.origin}: {failure.message}")]
+    for part in _by_part(of, full):
+        lines += ["", *(_in_short(*part[0], of) if len(part) == 1 else _together(part, of, full))]
     return "\n".join([*lines, *([""] if lines else []), *_summary(of)])
 
 
@@ -103,68 +106,63 @@ def failure_cause(failure: Failure) -> str:
     return failure.message.replace(f"step {failure.tick}:", "", 1)
 
 
-def _wrapped(text: str, indent: str = "") -> str:
-    width, then = text_width(), indent + "  "
-    return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
+Numbered = tuple[int, DeviationCause]
 
 
-def _by_part(result: CompareResult) -> Iterator[list[tuple[int, StepMismatch]]]:
-    """The mismatches without inputs with their numbers, those of one chart or block together."""
-    found: dict[str, list[tuple[int, StepMismatch]]] = {}
-    for number, one in enumerate(result.mismatches[result.small :], result.small + 1):
-        found.setdefault(_part(one), []).append((number, one))
+def _by_part(of: CrosscheckReport, full: Sequence[DeviationCause]) -> Iterator[list[Numbered]]:
+    """The findings that are not told in full with their numbers, those of one chart or block together."""
+    found: dict[str, list[Numbered]] = {}
+    rest = [one for one in of.findings if one not in full]
+    for number, one in enumerate(rest, len(full) + 1):
+        found.setdefault(one.part, []).append((number, one))
     yield from found.values()
 
 
-def _part(mismatch: StepMismatch) -> str:
-    assert mismatch.deviation is not None, "what a search found"
-    return mismatch.deviation.scope.part
-
-
-def _together(found: Sequence[tuple[int, StepMismatch]], of: CrosscheckReport) -> Iterator[str]:
-    """What one chart or block does otherwise, a line for each deviation: often it is one cause."""
-    board, part = found[0][1].board.name, _part(found[0][1])
-    more = "more " if part in map(_part, of.result.mismatches[: of.result.small]) else ""
-    yield _wrapped(f"✗ {board}, {part or 'what no part decides'} differs in {len(found)} {more}ways:")
+def _together(
+    found: Sequence[Numbered], of: CrosscheckReport, full: Sequence[DeviationCause]
+) -> Iterator[str]:
+    """What one chart or block does otherwise, a line for each finding."""
+    board, part = of.result.board.name, found[0][1].part
+    more = "more " if part in {one.part for one in full} else ""
+    yield wrapped(f"✗ {board}, {part or 'what no part decides'} differs in {len(found)} {more}ways:")
     for number, one in found:
-        deviation = one.deviation
-        assert deviation is not None, "what a search found"
-        says = headline(deviation).removeprefix(f"{part}: ")
-        runs = counted(deviation.runs, "run", "runs")
-        yield _wrapped(f"{number}. {says}, in {runs}{_mark(one, of)}", "   ")
-        for move in deviation.scope.charts:
-            yield _wrapped(move.removeprefix(f"{part}: "), "      ")
+        told = headline(one.first).removeprefix(f"{part}: ")
+        runs = counted(one.first.runs, "run", "runs")
+        yield wrapped(f"{number}. {told}, in {runs}{_mark(one, of)}", "   ")
+        for move in one.first.scope.charts:
+            yield wrapped(move.removeprefix(f"{part}: "), "      ")
+        yield from cause_lines(one, of.result, "      ")
 
 
-def _in_short(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
-    """A mismatch without its inputs: what differs, how often, what the charts do there."""
-    deviation = mismatch.deviation
-    assert deviation is not None, "what a search found"
-    yield _wrapped(f"✗ {number}. {mismatch.board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
-    yield _wrapped(f"{often(deviation, of.result)}", "   ")
-    for move in deviation.scope.charts:
-        yield _wrapped(move, "     ")
+def _in_short(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterator[str]:
+    """A finding without its inputs: what differs, how often, what the charts do there, and why."""
+    yield wrapped(f"✗ {number}. {of.result.board.name}, {headline(one.first)}.{_mark(one, of)}")
+    yield wrapped(f"{often(one.first, of.result)}", "   ")
+    for move in one.first.scope.charts:
+        yield wrapped(move, "     ")
+    yield from cause_lines(one, of.result, "   ")
 
 
-def _mark(mismatch: StepMismatch, of: CrosscheckReport) -> str:
-    if not of.with_known or mismatch.deviation is None:
+def _mark(one: DeviationCause, of: CrosscheckReport) -> str:
+    if not of.with_known:
         return ""
-    judged = of.judgement.of(mismatch.deviation)
+    judged = of.judgement.of(one.first)
     return f" ({mark(judged.word, judged.id)})"
 
 
 # --- a mismatch ---------------------------------------------------------------------------------------
 
 
-def _mismatch(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iterator[str]:
+def _mismatch(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterator[str]:
+    mismatch = of.mismatch(one.first)
     board, deviation = mismatch.board, mismatch.deviation
     assert deviation is not None, "what a search found"
-    yield _wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(mismatch, of)}")
-    yield _wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
+    yield wrapped(f"✗ {number}. {board.name}, {headline(deviation)}.{_mark(one, of)}")
+    yield wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
     time = f"{mismatch.tick * board.tick_ms / 1000:g} s"
     run = "a small run" if mismatch.small else "that run"
     before = f"; other parts differ before, in {counted(mismatch.earlier, 'step', 'steps')}"
-    yield _wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
+    yield wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
     yield from _inputs(mismatch)
     signals = {o.name: o.signal for o in board.outputs}
     yield f"   {'output':<26}{'charts':<24}implementation"
@@ -172,6 +170,7 @@ def _mismatch(number: int, mismatch: StepMismatch, of: CrosscheckReport) -> Iter
         actual = "missing" if d.actual is None else signals[d.name].show(d.actual)
         yield f"   {d.name:<26}{signals[d.name].show(d.expected):<24}{actual}"
     yield from _moves(mismatch, deviation)
+    yield from cause_lines(one, of.result, "   ")
 
 
 def _met(deviation: Deviation, result: CompareResult) -> Deviation:
@@ -181,10 +180,10 @@ def _met(deviation: Deviation, result: CompareResult) -> Deviation:
 
 def _failure(number: int, failure: Failure) -> Iterator[str]:
     time = f"{failure.tick * failure.board.tick_ms / 1000:g} s"
-    yield _wrapped(
+    yield wrapped(
         f"✗ {number}. {failure.board.name}, step {failure.tick} = {time}: it does not answer as it must."
     )
-    yield _wrapped(failure.message, "   ")
+    yield wrapped(failure.message, "   ")
     yield from _inputs(failure)
 
 
@@ -202,7 +201,7 @@ def _inputs(mismatch: StepMismatch | Failure) -> Iterator[str]:
             since = next((k for k in range(len(column), 0, -1) if column[k - 1] != last), 0) + 1
             value = _stamped(last) if signals[name].stamp else signals[name].show(_known(last))
             told = True
-            yield _wrapped(f"{name} = {value}, since step {since}", "     ")
+            yield wrapped(f"{name} = {value}, since step {since}", "     ")
     if not told:
         yield "     none"
     yield "   and before it:"
@@ -225,7 +224,7 @@ def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
     resting, step = environment(board).calm, 1
     for steps, changes, _ in in_rows(resting, {}, ((moment, {}) for moment in script_of(mismatch))):
         changed = [f"{name} = {_shown(signals[name], value)}" for name, value in changes.items()]
-        yield _wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
+        yield wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
         step += steps
 
 
@@ -240,16 +239,16 @@ def _moves(mismatch: StepMismatch, deviation: Deviation) -> Iterator[str]:
     moves = deviation.first.moves
     if moves:
         yield "   the charts:"
-        yield from (_wrapped(move, "     ") for move in moves)
+        yield from (wrapped(move, "     ") for move in moves)
     else:
-        yield _wrapped(f"{deviation.first.decided_by} is decided by no state of a chart.", "   ")
+        yield wrapped(f"{deviation.first.decided_by} is decided by no state of a chart.", "   ")
     if mismatch.earlier:
         return
     charts = {f.chart for step in mismatch.steps for f in step.fired if _moved(f.chart, moves)}
     for back in range(min(BEFORE, mismatch.tick - 1), 0, -1):
         for one in mismatch.steps[-1 - back].fired:
             if one.chart in charts:
-                yield _wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
+                yield wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
 
 
 def _moved(chart: str, moves: Sequence[str]) -> bool:
@@ -271,35 +270,33 @@ def _summary(report: CrosscheckReport) -> Iterator[str]:
     met, sides = cover.boundaries()
     ended = result.compared < cover.steps
     part = f", {result.compared:,} of them compared, as it did not survive some" if ended else ""
-    yield _wrapped(
+    yield wrapped(
         f"{_sign(report)} {result.board.name} {_verdict(report)}: {cover.steps:,} steps in "
         f"{counted(cover.runs, 'run', 'runs')}{part}; the charts took {took} of {of} transitions, "
         f"and inputs met {met} of {sides} sides of boundaries."
     )
     for line in known_lines(report.judgement):
-        yield _wrapped(line, "  ")
+        yield wrapped(line, "  ")
     for (name, because), runs in result.undecided.items():
         in_runs = counted(runs, "run", "runs")
-        yield _wrapped(
-            f"? {name}: after a deviation, not all could be decided in {in_runs}: {because}.", "  "
-        )
+        yield wrapped(f"? {name}: after a deviation, not all could be decided in {in_runs}: {because}.", "  ")
     for stage in result.stages:
         if stage.because:
-            yield _wrapped(untried(stage), "  ")
+            yield wrapped(untried(stage), "  ")
     if _given_up(result):
-        yield _wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
-    if result.small < len(result.mismatches):
-        yield _wrapped(
-            f"Deviations with a small run and a test: {result.small} of {len(result.mismatches)}; "
-            f"all of them with --mismatches {len(result.mismatches)}.", "  "
+        yield wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
+    if result.small < len(report.findings):
+        yield wrapped(
+            f"Findings with a small run and a test: {result.small} of {len(report.findings)}; "
+            f"all of them with --mismatches {len(report.findings)}.", "  "
         )  # fmt: skip
-    if len(set(map(_part, result.mismatches))) < len(result.mismatches) and not report.causes:
-        yield _wrapped("Which of them have one cause, and which one, is looked for with --causes.", "  ")
+    for line in searched(report.groups):
+        yield wrapped(line, "  ")
     if result.uncompared:
-        yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
+        yield wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
     if result.missing and not _given_up(result):
         yield f"  Transitions that no run took ({len(result.missing)}; some cannot be):"
-        yield from (_wrapped(str(transition), "    ") for transition in result.missing)
+        yield from (wrapped(str(transition), "    ") for transition in result.missing)
 
 
 def untried(stage: CompareStage) -> str:
@@ -328,11 +325,16 @@ def _verdict(of: CrosscheckReport) -> str:
 def _differences(of: CrosscheckReport) -> Iterator[str]:
     result = of.result
     if result.mismatches:
-        known = len(result.mismatches) - of.judgement.unknown if of.judgement.found else 0
+        findings = of.findings
+        words = [of.judgement.of(one.first).word for one in findings] if of.judgement.found else []
+        known = words.count("known")
         told = f", {known} of them known" if known else ""
-        parts = len(set(map(_part, result.mismatches)))
-        of_parts = f" of {counted(parts, 'part', 'parts')}" if parts < len(result.mismatches) else ""
-        yield counted(len(result.mismatches), "deviation", "deviations") + of_parts + told
+        parts = len({one.part for one in findings})
+        of_parts = f" of {counted(parts, 'part', 'parts')}" if parts < len(findings) else ""
+        ways = len(result.mismatches)
+        show = "show" if len(findings) > 1 else "shows"
+        shown_in = f", which {show} in {ways} ways" if ways > len(findings) else ""
+        yield counted(len(findings), "finding", "findings") + of_parts + told + shown_in
     if result.failures:
         gave_up = ", then the search gave up" if _given_up(result) else ""
         yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"

@@ -34,33 +34,38 @@ def deviation_finding(
 
 
 def sightings(
-    one: Deviation,
+    group: Sequence[Deviation],
     recordings: Iterable[tuple[str, Iterable[Deviation]]],
     every: Sequence[Deviation],
     tick_ms: int,
     lines: bool = False,
 ) -> tuple[CampaignSighting, ...]:
-    """Where a deviation of ``every`` is met; of each recording its name and its groups are given.
+    """Where some deviation of a group, of ``every``, is met; of each recording its name and groups are given.
 
-    ``lines``: whether the recordings have lines.
+    Ticks are those of the deviation that is met in most, as several may be met in one.  ``lines``: whether
+    the recordings have lines.
     """
     found = []
     for name, groups in recordings:
-        own = [g for g in groups if whole_of(every, g.scope, g.outputs) is one]
+        own: dict[int, list[Deviation]] = {}
+        for g in groups:
+            whole = whole_of(every, g.scope, g.outputs)
+            if any(whole is one for one in group):
+                own.setdefault(id(whole), []).append(g)
         if own:
-            found.append(_sighting(name, own, tick_ms, lines))
-    return tuple(found) or (_sighting(one.origin, [one], tick_ms, lines),)
+            found.append(_sighting(name, list(own.values()), tick_ms, lines))
+    return tuple(found) or (_sighting(group[0].origin, [group[:1]], tick_ms, lines),)
 
 
-def _sighting(name: str, own: Sequence[Deviation], tick_ms: int, lines: bool) -> CampaignSighting:
-    first = min((g.first for g in own), key=lambda m: m.tick)
-    worst = max((g.worst for g in own), key=lambda w: (w.ticks, -w.tick))
+def _sighting(name: str, own: Sequence[Sequence[Deviation]], tick_ms: int, lines: bool) -> CampaignSighting:
+    first = min((g.first for one in own for g in one), key=lambda m: m.tick)
+    worst = max((g.worst for one in own for g in one), key=lambda w: (w.ticks, -w.tick))
     return CampaignSighting(
         name,
         CampaignOccurrence(name, first.tick, first.tick * tick_ms, first.line * lines),
         CampaignOccurrence(name, worst.tick, worst.tick * tick_ms, worst.line * lines, worst.ticks),
-        sum(g.count for g in own),
-        sum(g.times for g in own),
+        max(sum(g.count for g in one) for one in own),
+        max(sum(g.times for g in one) for one in own),
     )
 
 

@@ -61,6 +61,14 @@ class KnownBook:
                 f"{', '.join(boards)}; name another --known."
             )
 
+    def knows(self, board: str, found: Deviation) -> bool:
+        """Whether a deviation of a board is known, and not too old to be expected."""
+        today = date.today()
+        return any(
+            one.board == board and one.covers(found) and (one.until is None or one.until >= today)
+            for one in self.known
+        )
+
     def judged(
         self, board: str, found: Sequence[Deviation], shown_by: Callable[[KnownDeviation], bool]
     ) -> KnownJudgement:

@@ -1,0 +1,53 @@
+"""The deviations of a comparison by cause, before the first of each is told in full."""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from rovercheck.checker.compare.evidence_runs import EvidenceRuns
+from rovercheck.checker.compare.result import CompareResult
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself, cause_groups, split
+from rovercheck.spec_model.abstraction import Board
+
+
+@dataclass
+class CauseGrouping:
+    """Looks for the causes of one board, for so many ``seconds`` in each part.
+
+    ``asked``: in every part with a deviation that is not known, or in none; ``None``: where there are
+    several.  Known deviations are told apart from the others of their cause.
+    """
+
+    board: Board
+    seconds: float
+    asked: bool | None
+    known: Callable[[Deviation], bool]
+    groups: CauseGroups | None = None
+
+    def leading(
+        self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
+    ) -> list[Deviation]:
+        """The first deviation of each group; what ends the search early leaves each by itself."""
+        self.groups = by_itself(found)
+        parts = self._parts(found)
+        if parts:
+            groups = cause_groups(self.board, runs.runs, found, parts, self.seconds, progress)
+            left_out = runs.of - len(runs.runs)
+            self.groups = replace(groups, causes=split(groups.causes, self.known), left_out=left_out)
+        return [cause.first for cause in self.groups.causes]
+
+    def of(self, result: CompareResult) -> CauseGroups:
+        """The groups of a result, of which deviations may be told as in a smaller run."""
+        if self.groups is None:  # interrupted
+            return by_itself(result.deviations)
+        own = {one.scope for cause in self.groups.causes for one in cause.deviations}
+        rest = by_itself(one for one in result.deviations if one.scope not in own)
+        return replace(self.groups, causes=(*self.groups.causes, *rest.causes))
+
+    def _parts(self, found: Sequence[Deviation]) -> list[str]:
+        ways = Counter(one.scope.part for one in found)
+        new = {one.scope.part for one in found if not self.known(one)}
+        if self.asked is False:
+            return []
+        return [part for part in ways if part and part in new and (self.asked or ways[part] > 1)]

@@ -1,0 +1,38 @@
+"""The runs that deviate, as what is known of an implementation when causes are looked for."""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from rovercheck.checker.compare.run_follower import RecordedRun
+from rovercheck.checker.conformance.deviations import DeviationScope
+from rovercheck.checker.conformance.recording import Recording
+
+MOST_STEPS = 150_000
+"""Steps of runs that are kept for it; beyond, a run is kept only for a deviation that few others show."""
+
+FEW = 3
+"""Runs of one deviation that are kept in any case."""
+
+
+@dataclass
+class EvidenceRuns:
+    """Runs as recordings; ``of`` is how many deviated."""
+
+    runs: list[Recording] = field(default_factory=list)
+    of: int = 0
+    _steps: int = 0
+    _shown: Counter[DeviationScope] = field(default_factory=Counter)
+
+    def add(self, run: RecordedRun, scopes: Iterable[DeviationScope]) -> None:
+        """Keep a run with these deviations, or not."""
+        self.of += 1
+        told = set(scopes)
+        if self._steps + len(run.steps) > MOST_STEPS and all(self._shown[s] >= FEW for s in told):
+            return
+        self._shown.update(told)
+        self._steps += len(run.steps)
+        self.runs.append(run.recording)
+
+
+__all__ = ["EvidenceRuns"]

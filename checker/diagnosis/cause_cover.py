@@ -1,0 +1,340 @@
+"""The causes of a part that deviates in several ways: changes that each explain some deviations wholly.
+
+A change counts if it makes no row wrong that was right, and if with it every row of some deviation is right.
+The one that explains most is taken as given, and the next one is looked for on top of it, until nothing is
+left to explain, nothing more is found, or the time is over.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from time import process_time
+
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, Grouping, whole_of
+from rovercheck.checker.conformance.mismatch import LogMismatch
+from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.diagnosis.change import ChartChange, Nearness
+from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence, logged_of
+from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
+from rovercheck.checker.diagnosis.trial import Parameter
+from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+
+MOST_CAUSES = 8
+"""Changes of one part that are put on top of each other."""
+
+NEAREST = 3
+"""Changes that explain the same of which it is tried whether they do so on top of others."""
+
+MORE_TIME = 1.5
+"""Times the time for changes, after which those found are not put on top of each other any more."""
+
+WITNESSES = 2
+"""Runs in which a deviation comes first that a change must get past before all runs are tried."""
+
+Wrong = Mapping[int, frozenset[tuple[str, int]]]
+"""The rows of a run that are wrong: in which outputs, of masks in which bits."""
+
+
+@dataclass(frozen=True)
+class CoveringChange:
+    """A change that contradicts nothing; all rows of what it explains are right with it, and those before."""
+
+    change: ChartChange
+    explains: frozenset[int]
+    cases: int
+    wrong: Sequence[Wrong]
+    system: System
+
+    @property
+    def rank(self) -> tuple[float, ...]:
+        """The one that explains most comes first, of those the nearest."""
+        return (-len(self.explains), -self.cases, *self.change.nearness)
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A run up to the end of the first case of a deviation, which a change must explain before all is tried.
+
+    ``place`` is that of the deviation.  ``before``: how many rows differ before; ``masked``: the outputs in
+    rows with other deviations, without what differs by these.
+    """
+
+    place: int
+    number: int
+    last: int
+    before: int
+    masked: Mapping[int, Known] = field(default_factory=dict, compare=False)
+
+    @property
+    def rank(self) -> tuple[int, int, int]:
+        """Those with nothing else before, then the short ones."""
+        return (self.before, self.last, self.number)
+
+
+@dataclass
+class PartCover:
+    """What explains the deviations of one part: each change with the places of the deviations it explains.
+
+    ``tried`` changes ``of`` those that there are.
+    """
+
+    evidence: PartEvidence
+    deviations: Sequence[Deviation]
+    rows: Mapping[int, "Pieces"] = field(default_factory=dict)
+    """Of each deviation, by its place, the rows in which it is met."""
+    changes: list[tuple[ChartChange, frozenset[int]]] = field(default_factory=list)
+    left: frozenset[int] = frozenset()
+    base: Sequence["Wrong"] = ()
+    """What is still wrong with all changes, in each run of ``TrialBench``."""
+    system: System | None = None
+    """The part with all changes."""
+    tried: int = 0
+    of: int = 0
+    seconds: float = 0.0
+    late: bool = False
+    """Whether the time was over before all was tried."""
+
+
+def covered(
+    evidence: PartEvidence, deviations: Sequence[Deviation], seconds: float, clock: Clock = process_time
+) -> PartCover:
+    """The changes that explain the deviations of one part, which are among ``deviations``."""
+    found = PartCover(evidence, deviations)
+    start = clock()
+    _CoverSearch(found, start, seconds, clock).run()
+    found.seconds = clock() - start
+    return found
+
+
+class _CoverSearch(HypothesisSearch):
+    def __init__(self, found: PartCover, start: float, seconds: float, clock: Clock) -> None:
+        super().__init__(found.evidence, start + seconds, clock)
+        self._end = start + MORE_TIME * seconds
+        self._cover = found
+        self._name = found.evidence.name
+        self._rows = found.rows = rows_of(found.evidence, found.deviations)
+        self._good: list[CoveringChange] = []
+        self._contradictions: dict[int, int] = {}
+        self._base: list[Wrong] = []
+        self._left: frozenset[int] = frozenset()
+        self._witnesses: list[Witness] = []
+        self._first = frozenset[int]()
+        self._is_enough = False
+        self._at_power_up = False
+
+    def run(self) -> None:
+        """Change upon change, while some deviation is left."""
+        self._base = [_outputs(run.wrong.get(self._name, ())) for run in self._bench.runs]
+        self._left = frozenset(n for n in self._rows if self._rows[n])
+        self._system = self._evidence.group.system
+        while len(self._cover.changes) < MOST_CAUSES:
+            self._good, self._is_enough = [], False
+            self._witnesses = self._first_cases()
+            self._first = frozenset(w.place for w in self._witnesses if not w.before)
+            self._at_power_up = any(w.last == 0 for w in self._witnesses)
+            if not self._left or not self._witnesses:
+                break
+            self.level(self._system, ())
+            if self.enough:
+                self.of = self.tried
+            if not self._good:
+                break
+            self._take(sorted(self._good, key=lambda one: one.rank))
+        self._cover.left, self._cover.base, self._cover.system = self._left, self._base, self._system
+        self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late
+
+    def _take(self, good: Sequence[CoveringChange]) -> None:
+        """The best, and on top of it what explains something else."""
+        self._accept(good[0])
+        while len(self._cover.changes) < MOST_CAUSES:
+            rest: dict[frozenset[int], list[CoveringChange]] = {}
+            for one in good:
+                if own := one.explains & self._left:
+                    rest.setdefault(own, []).append(one)
+            nearest = [one for own in sorted(rest, key=len, reverse=True) for one in rest[own][:NEAREST]]
+            if not any(self._again(one) for one in nearest if self._clock() < self._end):
+                return
+
+    def _again(self, one: CoveringChange) -> bool:
+        """Take a change on top of those taken before, if it still does what it did alone."""
+        board, change = self._evidence.group.board, one.change
+        try:
+            system = with_change(board, self._system, WrittenChange(*change.key))
+        except ModelError:
+            return False
+        cone = self._cone(system)
+        wrong = None if cone is None else self._wrong_with(cone, None)
+        if wrong is None:
+            return False
+        explains = frozenset(n for n in self._left if self._explained(n, wrong))
+        if explains:
+            self._accept(CoveringChange(change, explains, 0, wrong, system))
+        return bool(explains)
+
+    def _accept(self, one: CoveringChange) -> None:
+        self._cover.changes.append((one.change, one.explains & self._left))
+        self._left -= one.explains
+        self._base, self._system = list(one.wrong), one.system
+
+    def order(self, change: ChartChange) -> Nearness:
+        """Initial values first, where something differs in the first step of a run."""
+        return (-1.0,) if change.kind == "initial" and self._at_power_up else change.nearness
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether something is explained by transitions that are drawn."""
+        return bool(self._good)
+
+    @property
+    def enough(self) -> bool:
+        """Whether one change explains all that comes first in some run; what comes later is looked at then.
+
+        Where several do it together, one that is farther from the charts may explain as much.
+        """
+        return self._is_enough
+
+    # --- what a change must get past ---
+
+    def _first_cases(self) -> list[Witness]:
+        """For each deviation that is left runs in which it is met early, what differs before being masked."""
+        found: dict[int, list[Witness]] = {}
+        ids = {id(run): number for number, run in enumerate(self._bench.runs)}
+        for place in self._left:
+            rows: dict[int, list[int]] = {}
+            for run, row in self._rows[place]:
+                if row in self._base[ids[run]]:
+                    rows.setdefault(ids[run], []).append(row)
+            for number, own in rows.items():
+                first = last = min(own)
+                while last + 1 in own:
+                    last += 1
+                masked = [row for row in self._base[number] if row < first]
+                found.setdefault(place, []).append(Witness(place, number, last, len(masked)))
+        chosen = [one for some in found.values() for one in sorted(some, key=lambda w: w.rank)[:WITNESSES]]
+        return [self._masked(one) for one in sorted(chosen, key=lambda w: w.rank)]
+
+    def _masked(self, one: Witness) -> Witness:
+        """With the outputs left out that differ by other deviations."""
+        run, names = self._bench.runs[one.number], [o.name for o in self._evidence.cone.outputs]
+        own = self._rows[one.place]
+        logged = logged_of(self._evidence.cone, run)
+        masked = {}
+        for row, pieces in self._base[one.number].items():
+            wrong = {name for name, _ in pieces - own.get((id(run), row), frozenset())}
+            if row <= one.last and wrong:
+                values = zip(names, logged[row], strict=True)
+                masked[row] = tuple(None if name in wrong else value for name, value in values)
+        return replace(one, masked=masked)
+
+    def judge(
+        self,
+        cone: LogCone,
+        change: Callable[[], ChartChange],
+        before: tuple[ChartChange, ...],
+        system: System | None,
+        parameter: Parameter | None = None,
+    ) -> bool:
+        """Note a change if it contradicts nothing and explains some deviation; whether it does."""
+        if not any(self._bench.passes(cone, w.number, w.last, parameter, w.masked) for w in self._witnesses):
+            return False
+        wrong = self._wrong_with(cone, parameter)
+        if wrong is None:
+            return False
+        explains = frozenset(n for n in self._left if self._explained(n, wrong))
+        if not explains:
+            return False
+        made = change()
+        if made.kind == "extra" and explains != self._left:  # of these one always explains some case
+            return False
+        cases = sum(len(old) - len(new) for old, new in zip(self._base, wrong, strict=True))
+        self._is_enough = self._is_enough or (bool(self._first) and self._first <= explains)
+        self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
+        return True
+
+    def _wrong_with(self, cone: LogCone, parameter: Parameter | None) -> list[Wrong] | None:
+        """What is wrong with a changed part in each run; ``None`` if something is that was right before."""
+        found: list[Wrong] = [{} for _ in self._base]
+        order = sorted(
+            range(len(found)), key=lambda n: (bool(self._base[n]), -self._contradictions.get(n, 0))
+        )
+        for number in order:
+            base = self._base[number]
+            if not base:
+                wrong = not self._bench.passes(cone, number, None, parameter)
+            else:
+                rows = self._tracked_rows(cone, number, parameter, base)
+                wrong = rows is None
+                found[number] = rows or {}
+            if wrong:
+                self._contradictions[number] = self._contradictions.get(number, 0) + 1
+                return None
+        return found
+
+    def _tracked_rows(
+        self, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
+    ) -> Wrong | None:
+        found: dict[int, frozenset[tuple[str, int]]] = {}
+        for row, mismatch in self._bench.mismatches(cone, number, parameter):
+            if row not in base:
+                return None
+            found[row] = base[row] if mismatch is None else differing(mismatch)
+        return found
+
+    def _explained(self, place: int, wrong: Sequence[Wrong]) -> bool:
+        """Whether all rows of a deviation are right, as far as they are its own."""
+        numbers = {id(run): number for number, run in enumerate(self._bench.runs)}
+        return all(
+            not (wrong[numbers[run]].get(row, frozenset()) & pieces)
+            for (run, row), pieces in self._rows[place].items()
+        )
+
+
+Pieces = dict[tuple[int, int], frozenset[tuple[str, int]]]
+
+
+def rows_of(evidence: PartEvidence, deviations: Sequence[Deviation]) -> dict[int, Pieces]:
+    """For each deviation, by its place, the rows of the runs in which it is, and what differs there.
+
+    Numbers that follow from a discrete output are left out: they may differ for a reason of their own, too.
+    """
+    found: dict[int, Pieces] = {n: {} for n, one in enumerate(deviations)}
+    places: dict[tuple[DeviationScope, tuple[str, ...]], int | None] = {}
+    for run in evidence.deviating:
+        rows = {tick: row for row, tick in enumerate(run.ticks)}
+        for mismatch, scope in _told(run, evidence.name):
+            key = scope, mismatch.outputs
+            if key not in places:
+                whole = whole_of(deviations, scope, mismatch.outputs)
+                places[key] = next((n for n, one in enumerate(deviations) if one is whole), None)
+            place = places[key]
+            if place is not None:
+                at = id(run), rows[mismatch.tick]
+                own = {piece for piece in differing(mismatch) if piece[0] in scope.outputs}
+                found[place][at] = found[place].get(at, frozenset()) | own
+    return found
+
+
+def _told(run: DecodedRun, part: str) -> Iterator[tuple[LogMismatch, DeviationScope]]:
+    """The pieces of the mismatches of a part, with the scopes of their groups."""
+    told: list[tuple[LogMismatch, DeviationScope]] = []
+    grouping = Grouping(may_freeze=False)
+    grouping.told = lambda mismatch, scope: told.append((mismatch, scope))
+    wrong = dict(run.wrong[part])
+    for row in sorted({*wrong, *(row + 1 for row in wrong)}):
+        if row < len(run):
+            grouping.tick(run.ticks[row], [wrong[row]] if row in wrong else [], True)
+    grouping.end()
+    yield from told
+
+
+def _outputs(wrong: Sequence[tuple[int, LogMismatch]]) -> Wrong:
+    return {row: differing(mismatch) for row, mismatch in wrong}
+
+
+def differing(mismatch: LogMismatch) -> frozenset[tuple[str, int]]:
+    return frozenset((d.output.name, d.bit) for one in mismatch.differences for d in one.each_bit())
+
+
+__all__ = ["PartCover", "Pieces", "Wrong", "covered", "differing", "rows_of"]

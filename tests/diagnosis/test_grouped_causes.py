@@ -1,0 +1,47 @@
+"""Causes of a part that deviates in several ways: masked ones, exchanged members, inputs taken otherwise."""
+
+from dataclasses import replace
+
+from rovercheck.checker.conformance.recording import Recording
+from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector
+from rovercheck.checker.mutate.rewrites import ASSIGNED, COMPARED, rewrites
+from rovercheck.spec_model.abstraction import boards
+from tests.diagnosis.planted import inputs, part_of, recorded
+
+BOARD1 = boards()["board1"]
+STAMP = "last_valid_b2_ms"
+
+
+def grouped(part: str, *runs: Recording) -> CauseGroups:
+    collector = EvidenceCollector(BOARD1)
+    for run in runs:
+        collector.add(run)
+    behaviours = collector.evidence().behaviours
+    found = [d for run in runs for d in behaviours[run.name].deviations if d.scope.part == part]
+    return cause_groups(BOARD1, runs, found, [part], 60)
+
+
+def test_a_stamp_that_is_taken_otherwise_is_one_cause_under_the_input_made_of_it() -> None:
+    """The firmware misses ten heartbeats: their age is longer, and so is once their mean gap."""
+    given = inputs("board1", [(80, {})])
+    held = [{**row, STAMP: given[min(n, 30)][STAMP]} if 30 <= n < 45 else row for n, row in enumerate(given)]
+    run = recorded("board1", BOARD1.system, held, "held")
+    [block] = run.blocks()
+    [own] = recorded("board1", BOARD1.system, given, "given").blocks()
+    told = replace(block, values={**block.values, STAMP: own.values[STAMP]})
+    groups = grouped("Monitor_heartbeat", Recording("held", run.signals, True, lambda: [told]))
+    assert len(groups.causes) in (1, 2) and not groups.cut
+    assert {c.input for c in groups.causes} <= {
+        f"heartbeat_age, which is computed from {STAMP}",
+        f"heartbeat_slow, which is computed from {STAMP}",
+    }
+    assert groups.causes[0].input.startswith("heartbeat_age") and groups.causes[0].change is None
+
+
+def test_members_are_exchanged_where_they_are_compared_or_where_they_are_assigned() -> None:
+    chart = part_of("board1", "Motion_Supervision")
+    pairs = {(one.site, *sorted((one.old, one.new))) for one in rewrites(chart, {}) if one.kind == "members"}
+    assert (COMPARED, "CMD_AVOID_LEFT", "CMD_AVOID_RIGHT") in pairs
+    assert (ASSIGNED, "CMD_AVOID_LEFT", "CMD_AVOID_RIGHT") in pairs
+    assert all(one != two for _, one, two in pairs)
