@@ -9,21 +9,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
 
-from rovercheck.checker.encode.values import (
-    EITHER,
-    TRUE,
-    AnalysisEffort,
-    KnownValues,
-    NoValue,
-    TooMuch,
-    Values,
-    ValuesOf,
-    assumed,
-    hull,
-    settled,
-    whole,
-    within,
-)
+from rovercheck.checker.encode.value_sets import EITHER, TRUE, NoValue, Values, hull, whole, within
+from rovercheck.checker.encode.values import AnalysisEffort, KnownValues, TooMuch, ValuesOf, assumed, settled
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named
 from rovercheck.spec_model.lang.operators import Op

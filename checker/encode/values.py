@@ -9,6 +9,7 @@ from itertools import count, product
 from math import prod
 from typing import cast
 
+from rovercheck.checker.encode.value_sets import CONTRARY, EITHER, FALSE, TRUE, TURNED, NoValue, Values, applied, compared, hull, joined, whole, within
 from rovercheck.checker.system.intervals import Interval, postorder, transfer
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import Domain
@@ -17,12 +18,6 @@ from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 
-Values = frozenset[int] | Interval
-"""Every value there is, or two between which all are."""
-
-FEW = 16
-"""Values that are told one by one."""
-_MOST_TRIED = 256
 _PATIENCE = 12
 """Rounds in which a variable may gain values before it is taken to have all of its domain."""
 _DEEP = 12
@@ -30,12 +25,6 @@ _DEEP = 12
 _EFFORT, _NODE = 200_000_000, 100
 """Values that are copied, and for how many of them a formula counts: some seconds.  After half of them the
 conditions of choices are taken to say nothing, after all nothing is known: that costs memory only."""
-
-TRUE, FALSE, EITHER = frozenset({1}), frozenset({0}), frozenset({0, 1})
-
-
-class NoValue(Exception):
-    """Nothing can be so."""
 
 
 class TooMuch(Exception):
@@ -154,57 +143,6 @@ def possible(system: TransitionSystem) -> bool:
     return True
 
 
-def whole(domain: Domain) -> Values:
-    """All that a domain has, or more."""
-    found = domain.values
-    return frozenset(found) if len(found) <= FEW else Interval(domain.low, domain.high)
-
-
-def ends(values: Values) -> tuple[int, int]:
-    """The least and the greatest value."""
-    return (values.low, values.high) if isinstance(values, Interval) else (min(values), max(values))
-
-
-def hull(values: Values) -> Interval:
-    """From the least to the greatest."""
-    return Interval(*ends(values))
-
-
-def _few(found: Iterable[int]) -> Values:
-    kept = frozenset(found)
-    return kept if len(kept) <= FEW else Interval(min(kept), max(kept))
-
-
-def joined(a: Values, b: Values) -> Values:
-    """The values of both, or more."""
-    if a == b:
-        return a
-    if isinstance(a, frozenset) and isinstance(b, frozenset):
-        return _few(a | b)
-    return hull(a) | hull(b)
-
-
-def _meet(a: Values, low: int, high: int) -> Values:
-    """Those from low to high.  Raises ``NoValue`` if there are none."""
-    if isinstance(a, frozenset):
-        a = frozenset(v for v in a if low <= v <= high)
-        if not a:
-            raise NoValue
-        return a
-    low, high = max(low, a.low), min(high, a.high)
-    if low > high:
-        raise NoValue
-    return Interval(low, high) if high - low >= FEW else frozenset(range(low, high + 1))
-
-
-def within(found: Values, span: Interval) -> Values:
-    """What an assignment leaves in a variable; what leaves a domain whatever happens the search tells."""
-    try:
-        return _meet(found, span.low, span.high)
-    except NoValue:
-        return span
-
-
 class StepOnValues:
     """Runs a program on all values at once, one time after another.
 
@@ -293,38 +231,10 @@ def _learn(condition: Expr, truth: bool, known: KnownValues) -> None:
             case Apply(Op.AND | Op.OR as op, parts, _) if (op is Op.AND) is truth:
                 todo += ((part, truth) for part in parts)
             case Apply(op, (Var(name), Const(value)), _):
-                known[name] = _compared(known[name], op if truth else _CONTRARY.get(op, op), value)
+                known[name] = compared(known[name], op if truth else CONTRARY.get(op, op), value)
             case Apply(op, (Const(value), Var(name)), _):
-                op = _TURNED.get(op, op)
-                known[name] = _compared(known[name], op if truth else _CONTRARY.get(op, op), value)
-
-
-def _compared(values: Values, op: Op, value: int) -> Values:
-    span = hull(values)
-    match op:
-        case Op.EQ:
-            return _meet(values, value, value)
-        case Op.LT:
-            return _meet(values, span.low, value - 1)
-        case Op.LE:
-            return _meet(values, span.low, value)
-        case Op.GT:
-            return _meet(values, value + 1, span.high)
-        case Op.GE:
-            return _meet(values, value, span.high)
-        case Op.NE if isinstance(values, frozenset):
-            if not values - {value}:
-                raise NoValue
-            return values - {value}
-        case Op.NE if value == span.low:
-            return _meet(values, value + 1, span.high)
-        case Op.NE if value == span.high:
-            return _meet(values, span.low, value - 1)
-    return values
-
-
-_CONTRARY = {Op.EQ: Op.NE, Op.NE: Op.EQ, Op.LT: Op.GE, Op.GE: Op.LT, Op.GT: Op.LE, Op.LE: Op.GT}
-_TURNED = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
+                op = TURNED.get(op, op)
+                known[name] = compared(known[name], op if truth else CONTRARY.get(op, op), value)
 
 
 class ValuesOf:
@@ -359,7 +269,7 @@ class ValuesOf:
             case Apply(Op.AND | Op.OR as op, parts, _):
                 return self._junction(parts, 0 if op is Op.AND else 1)
             case Apply(op, args, _):
-                return _applied(op, [self._done[id(a)] for a in args])
+                return applied(op, [self._done[id(a)] for a in args])
         raise AssertionError(f"{expr} speaks of the past")
 
     def _chosen(self, test: Expr, then: Expr, other: Expr) -> Values:
@@ -386,19 +296,3 @@ class ValuesOf:
         if frozenset({ends}) in found:
             return frozenset({ends})
         return EITHER if EITHER in found else frozenset({1 - ends})
-
-
-def _applied(op: Op, args: Sequence[Values]) -> Values:
-    few = [arg for arg in args if isinstance(arg, frozenset)]
-    if len(few) == len(args) and prod(map(len, few)) <= _MOST_TRIED:
-        return _few(operate(op, *vector) for vector in product(*few))
-    hulls = [hull(a) for a in args]
-    match op:
-        case Op.EQ if hulls[0].high < hulls[1].low or hulls[1].high < hulls[0].low:
-            return FALSE
-        case Op.NE if hulls[0].high < hulls[1].low or hulls[1].high < hulls[0].low:
-            return TRUE
-        case Op.LT | Op.LE | Op.GT | Op.GE:
-            return frozenset(operate(op, x, y) for x, y in product(*map(ends, hulls)))
-    found = transfer(op, hulls)
-    return frozenset(range(found.low, found.high + 1)) if found.high - found.low < FEW else found

@@ -14,7 +14,8 @@ from rovercheck.checker.certify.outcome import Accepted
 from rovercheck.checker.encode import values as known_values
 from rovercheck.checker.encode.dead_branches import Narrowed
 from rovercheck.checker.encode.native import OutsideDomain, layout
-from rovercheck.checker.encode.values import Values, ends, possible, values
+from rovercheck.checker.encode.value_sets import Values, ends
+from rovercheck.checker.encode.values import possible, values
 from rovercheck.checker.engines import Limits, explicit, quiet
 from rovercheck.checker.engines.explicit import answers as explicit_answers
 from rovercheck.checker.engines.explicit import answers as explicit_cases

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import gcd
 
-from rovercheck.checker.encode.values import Values, ends, whole
+from rovercheck.checker.encode.value_sets import Values, ends, whole
 from rovercheck.checker.system.intervals import Interval
 from rovercheck.spec_model.lang.expr import Var
 
