@@ -4,16 +4,27 @@ A variable is known by a few values or by the interval between two.  Conditions 
 which branch is taken, and what a compared variable is worth in it; otherwise variables are unrelated.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from itertools import count, product
-from math import prod
+from collections.abc import Mapping, Sequence
+from itertools import count
 from typing import cast
 
-from rovercheck.checker.encode.value_sets import CONTRARY, EITHER, FALSE, TRUE, TURNED, NoValue, Values, applied, compared, hull, joined, whole, within
-from rovercheck.checker.system.intervals import Interval, postorder, transfer
+from rovercheck.checker.encode.value_sets import (
+    CONTRARY,
+    EITHER,
+    FALSE,
+    TRUE,
+    TURNED,
+    NoValue,
+    Values,
+    applied,
+    compared,
+    hull,
+    joined,
+    whole,
+    within,
+)
+from rovercheck.checker.system.intervals import Interval, postorder
 from rovercheck.spec_model.lang.action import Assign, If
-from rovercheck.spec_model.lang.domain import Domain
-from rovercheck.spec_model.lang.evaluate import operate
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
