@@ -4,6 +4,7 @@ Where no single change does, a change that explains some cases and contradicts n
 and another one is looked for on top of it, up to three.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -90,7 +91,7 @@ def diagnosed(evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = p
     return found
 
 
-class HypothesisSearch:
+class HypothesisSearch(ABC):
     """Tries all changes of a part until the time is over; ``judge`` says what becomes of one.
 
     ``tried`` changes ``of`` those that there are.
@@ -105,6 +106,7 @@ class HypothesisSearch:
         self.late = False
         """Whether the time was over before all was tried."""
 
+    @abstractmethod
     def judge(
         self,
         cone: LogCone,
@@ -114,7 +116,6 @@ class HypothesisSearch:
         parameter: Parameter | None = None,
     ) -> bool:
         """Note a change of the part, which is ``cone`` with it; whether it explains what it must."""
-        raise NotImplementedError
 
     @property
     def satisfied(self) -> bool:

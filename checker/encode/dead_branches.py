@@ -55,12 +55,12 @@ class _Narrowing:
         free = {v.name: whole(v.domain) for v in (*system.inputs, *system.temps)}
         try:
             at = assumed(system.assume, True, KnownValues({**self._before, **free}), self._effort)
+            out: list[Statement] = []
+            for statement in system.step:
+                at.settle()
+                out += self._program([statement], at)
         except NoValue:
             return None
-        out: list[Statement] = []
-        for statement in system.step:
-            at.settle()
-            out += self._program([statement], at)
         return tuple(out)
 
     def _program(self, program: Sequence[object], at: KnownValues) -> list[Statement]:
