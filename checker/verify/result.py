@@ -1,7 +1,7 @@
 """Results: an answer about a goal taken home as a verdict on a property."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from rovercheck.checker.certify.outcome import Outcome
@@ -39,7 +39,7 @@ class Result:
     ``in_part``: the verdict rests on having searched a system that has only some of the runs of the
     rover, so it is none about the rover.  ``certificate``: what came of checking the proof again, where
     that was asked for and the verdict rests on a proof.  ``limited_to``: what a proof is limited to, in a
-    few words.
+    few words.  ``same_under``: names in the store that stand for all that the property sees.
     """
 
     property: Property
@@ -48,6 +48,7 @@ class Result:
     in_part: bool = False
     certificate: Outcome | None = None
     limited_to: str = ""
+    same_under: tuple[str, ...] = field(default=(), compare=False)
 
 
 def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:

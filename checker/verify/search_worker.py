@@ -17,7 +17,7 @@ from rovercheck.checker.process.faults import listening as attending
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.process.pool import GrantedTime
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Verdict, Violated
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, StoredRun, Verdict, Violated
 from rovercheck.checker.system.formula_json import Tree
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.tasks import Task
@@ -43,7 +43,7 @@ class PropertyDecided:
     """What travels of a result: the property by its id, the names under which the store keeps it, and what
     was searched together.
 
-    ``certificate``: of what was kept, how that was certified.
+    ``certificate``: of what was kept, how that was certified; ``same_under``: see ``Result``.
     """
 
     id: str
@@ -52,6 +52,7 @@ class PropertyDecided:
     names: tuple[str, ...] = ()
     together: tuple[str, ...] = ()
     certificate: Outcome | None = None
+    same_under: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -77,12 +78,14 @@ class SearchWorker:
         limits: Limits,
         certifying: "Certification | None",
         store: "VerdictStore | None" = None,
+        traces: bool = True,
     ) -> None:
         self._systems = systems
         self._engine = engine
         self._limits = limits
         self._certifying = certifying
         self._store = store
+        self._traces = traces
         self._expected: dict[str, StoredVerdict] = {}
         """What is kept of properties that are decided anew."""
 
@@ -140,7 +143,7 @@ class SearchWorker:
 
         stored = None
         if self._store is not None and self._certifying is None:
-            stored = StoredTask.of(task, self._systems, self._store)
+            stored = StoredTask.of(task, self._systems, self._store, self._traces)
             task = stored.without(self._told(send, stored))
             if not task.properties:
                 return
@@ -158,7 +161,7 @@ class SearchWorker:
         """Send what is kept of a task; the ids of these properties."""
         assert self._store is not None
         kept = {p.id: one for p in stored.task.properties if (one := stored.kept(p)) is not None}
-        shown = {id: one for id, one in kept.items() if isinstance(one.verdict.because, Trace)}
+        shown = {id: one for id, one in kept.items() if isinstance(one.verdict.because, Trace | StoredRun)}
         how: dict[str, Outcome | None] = dict.fromkeys(shown if self._store.recheck else kept)
         if self._store.recheck:
             how |= stored.certified({id: one for id, one in kept.items() if id not in shown}, self._limits)
@@ -166,7 +169,8 @@ class SearchWorker:
         for id, outcome in how.items():
             one = kept[id]
             names = self._names(stored, id, one.verdict, one.system)
-            send(PropertyDecided(id, one.verdict, one.system, names, one.together, outcome))
+            same = stored.same_under(id)
+            send(PropertyDecided(id, one.verdict, one.system, names, one.together, outcome, same))
         return list(how)
 
     def _decided(self, one: Result, task: Task, stored: "StoredTask | None") -> PropertyDecided:
@@ -187,7 +191,8 @@ class SearchWorker:
             )
         together = tuple(p.id for p in task.properties)
         names = self._names(stored, id, one.verdict, one.system)
-        return PropertyDecided(id, one.verdict, one.system, names, together)
+        same = stored.same_under(id)
+        return PropertyDecided(id, one.verdict, one.system, names, together, same_under=same)
 
     @staticmethod
     def _names(stored: "StoredTask", id: str, verdict: Verdict, system: str) -> tuple[str, ...]:

@@ -120,11 +120,12 @@ def stored(
     for prop in properties:
         if prop.on not in systems:
             return  # which is said where it is asked
-        kept = search.store.read(search.store.question(prop, systems))
-        if kept is None or not kept.fits(prop, systems):
+        name = search.store.question(prop, systems)
+        kept = search.store.read(name)
+        if name is None or kept is None or not kept.fits(prop, systems):
             continue
         if not (search.traces and isinstance(kept.verdict.because, StoredRun)):
-            yield prop.id, Result(prop, kept.verdict, kept.system)
+            yield prop.id, Result(prop, kept.verdict, kept.system, same_under=(name,))
 
 
 def searches(
@@ -144,7 +145,7 @@ def searches(
     nothing is proved of a system that is then refused.
     """
     needed, limits, certifying = _needed(todo, systems), search.limits, search.certifying
-    settings = needed, search.engine, limits, certifying, search.store
+    settings = needed, search.engine, limits, certifying, search.store, search.traces
     pool = Pool(search.jobs or cores(), SearchWorker, settings, limits.memory + SLACK)
     orders = [Order((task.system.name, task.properties, task.recorded), task.system.name) for task in todo]
     waiting = certifying is not None and certifying.again
@@ -315,9 +316,10 @@ class _Returns:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
             case PropertyDecided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
-            case PropertyDecided(id, verdict, system, names, together, certificate):
+            case PropertyDecided(id, verdict, system, names, together, certificate, same):
                 self.kept[id] = names, together
-                result = Result(self._left.pop(id), verdict, system, certificate=certificate)
+                asked = self._left.pop(id)
+                result = Result(asked, verdict, system, certificate=certificate, same_under=same)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result
                 else:

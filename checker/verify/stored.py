@@ -24,7 +24,7 @@ from rovercheck.checker.verify.liveness.loops import loop_query, repeated
 from rovercheck.checker.verify.portfolio.question import PortfolioQuestion
 from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.runs.known_runs import reached
+from rovercheck.checker.verify.runs.known_runs import reached_by
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, Unbounded
@@ -49,20 +49,24 @@ class StoredTask:
     systems: Mapping[str, System]
     store: VerdictStore
     names: Mapping[str, StoredNames]
+    traces: bool = True
     as_written: set[str] = field(default_factory=set)
     """Properties of which the verdict is kept for the systems as they are written."""
 
     @staticmethod
-    def of(task: Task, systems: Mapping[str, System], store: VerdictStore) -> "StoredTask":
+    def of(
+        task: Task, systems: Mapping[str, System], store: VerdictStore, traces: bool = True
+    ) -> "StoredTask":
         """Raises ``ModelError`` for a system that has no run or is not well formed."""
         require_initial_tick(lowered(task.system))
         names = {p.id: StoredNames(store, p, systems) for p in task.properties}
-        return StoredTask(task, systems, store, names)
+        return StoredTask(task, systems, store, names, traces)
 
     def kept(self, prop: Property) -> StoredVerdict | None:
         """The verdict that is kept, its run replayed; what cannot be replayed is kept no longer.
 
-        Where there is none, an earlier run that the property's system still has, if it still shows the same.
+        Where no ``traces`` are asked for, a run of the very same slices stands as it is kept.  Where nothing
+        is kept of these, an earlier run that the property's system still has, if it still shows the same.
         """
         names = self.names[prop.id]
         found = self._under(names.question, prop)
@@ -74,6 +78,8 @@ class StoredTask:
     def _under(self, name: str | None, prop: Property) -> StoredVerdict | None:
         found = self.store.read(name)
         fits = found is not None and found.fits(prop, self.systems)
+        if found is not None and fits and not (self.traces or self.store.recheck):
+            return found
         verdict = replayed(found, prop, self.systems) if found is not None and fits else None
         if found is not None and verdict is not None:
             return replace(found, verdict=verdict)
@@ -87,6 +93,12 @@ class StoredTask:
         if id in self.as_written and question is not None:
             return (question,)  # it is under the others too
         return self.names[id].fitting(found, about_own)
+
+    def same_under(self, id: str) -> tuple[str, ...]:
+        """The names that stand for all that a property can see of its systems."""
+        names = self.names[id]
+        both = (names.question,) if id in self.as_written else (names.question, names.slice)
+        return tuple(name for name in both if name is not None)
 
     def _before(self, prop: Property) -> StoredVerdict | None:
         """The earlier run, up to where it reaches the goal; whether there is a shorter one is not known."""
@@ -109,7 +121,7 @@ class StoredTask:
             return replace(kept, shortest=False)
         try:
             run = _fitted(kept.run, lowered(system))
-            found = reached(system, [replace(prop, on=system.name)], [run]).get(prop.id)
+            found = reached_by(run, system, replace(prop, on=system.name))
         except ModelError:
             return None
         return None if found is None else StoredRun(found, 0, shortest=False)

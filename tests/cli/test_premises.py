@@ -1,7 +1,7 @@
 """Proofs of cases that never occur: told by `check`, an error with `--strict`."""
 
 import json
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,7 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.verify.checked import PremiseCase
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Property
 from tests.cli.test_report import EMPTY
@@ -111,17 +111,18 @@ def test_a_run_on_record_is_gone_through_once_when_its_proof_is_heard_of(
     from rovercheck.checker.commands.check import premises
 
     checked(hall, "--record-premises")
-    again, told, order = premises._again, premises.cases, list[str]()
+    again, told, order = premises.KnownCases.shown, premises.cases, list[str]()
 
-    def noted(wanted: dict[str, Property], *rest: Any) -> Any:
-        order.extend(wanted)
-        return again(wanted, *rest)
+    def noted(cases: Any, found: Iterable[CheckedProperty]) -> Any:
+        of = list(found)
+        order.extend(one.result.property.id for one in of)
+        return again(cases, of)
 
     def at_the_end(*rest: Any) -> Any:
         order.append("end")
         return told(*rest)
 
-    monkeypatch.setattr(premises, "_again", noted)
+    monkeypatch.setattr(premises.KnownCases, "shown", noted)
     monkeypatch.setattr(premises, "cases", at_the_end)
     assert checked(hall, "FULL") == Exit.AS_EXPECTED
     assert order == ["FULL", "end"]

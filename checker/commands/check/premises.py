@@ -1,7 +1,7 @@
 """Whether the cases occur that proofs speak of: recorded runs first, then a search."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -46,8 +46,8 @@ def cases(
     """
     wanted, before = _wanted(found), shown or {}
     found_out = {id: before[id] for id in wanted if id in before}
-    left_over = {id: case for id, case in wanted.items() if id not in before}
-    found_out |= _again(left_over, known, systems, search.store)
+    again = KnownCases(known, systems, search.store)
+    found_out |= again.shown(c for c in found if c.result.property.id not in before)
     left = [case for id, case in wanted.items() if id not in found_out]
     for one in _searched(left, systems, search, quiet):
         found_out[one.property.id] = premise_case(one, systems)
@@ -77,7 +77,8 @@ class PremiseSearch:
 
     def on_result(self, one: CheckedProperty) -> None:
         """Go through the recorded run of a proof that speaks of a case."""
-        self._told |= _again(_wanted([one]), self.known, self.systems, self.search.store)
+        store = self.search.store
+        self._told |= KnownCases(self.known, self.systems, store, replayed=self.keep).shown([one])
 
     def __call__(self, found: Sequence[CheckedProperty]) -> Mapping[str, PremiseCase]:
         """For each proof that speaks of a case, by id, whether it occurs on its system."""
@@ -117,34 +118,53 @@ def _wanted(found: Sequence[CheckedProperty]) -> dict[str, Property]:
     return {prop.id: case for prop in proved if (case := premise(prop)) is not None}
 
 
-def _again(
-    wanted: Mapping[str, Property],
-    known: Mapping[str, KeptRun],
-    systems: Mapping[str, System],
-    store: "VerdictStore | None",
-) -> Iterator[tuple[str, PremiseCase]]:
-    """The cases that recorded runs still show."""
-    for id, case in wanted.items():
-        kept = known.get(id)
-        if kept is not None and kept.system in systems:
-            run = _shown(replace(case, on=kept.system), systems[kept.system], kept.run, store)
-            if run is not None:
-                yield id, PremiseCase(True, _occurs(len(run), systems[kept.system]), replace(kept, run=run))
+@dataclass(frozen=True)
+class KnownCases:
+    """Cases of which runs are recorded.  ``replayed``: the runs are wanted, so that all are gone through."""
 
+    known: Mapping[str, KeptRun]
+    systems: Mapping[str, System]
+    store: "VerdictStore | None"
+    replayed: bool = False
 
-def _shown(case: Property, system: System, run: Run, store: "VerdictStore | None") -> Run | None:
-    """The part of a run up to a case, if it shows that; one that did before is not gone through again."""
-    name = store.about("case", case, system, run) if store is not None else None
-    before = store.read(name) if store is not None and not store.recheck else None
-    if before is not None and isinstance(before.verdict.because, StoredRun):
-        return before.verdict.because.run
-    from rovercheck.checker.verify.runs.known_runs import reached
+    def shown(self, found: Iterable[CheckedProperty]) -> Iterator[tuple[str, PremiseCase]]:
+        """The cases that recorded runs still show, by id."""
+        for one in found:
+            for id, case in _wanted([one]).items():
+                kept = self.known.get(id)
+                if kept is not None and kept.system in self.systems:
+                    run = self._shown(case, kept, one.result)
+                    if run is not None:
+                        said = _occurs(len(run), self.systems[kept.system])
+                        yield id, PremiseCase(True, said, replace(kept, run=run))
 
-    found = reached(system, [case], [run]).get(case.id)
-    if found is not None and store is not None:
-        shown = StoredRun(found, len(found) * system.tick_ms)
-        store.write(name, Proved(shown, "replay"), system.name)
-    return found
+    def _shown(self, case: Property, kept: KeptRun, of: Result) -> Run | None:
+        """The part of a run up to a case, if it shows that; one that did before is not gone through again."""
+        if self.store is None:
+            return self._gone_through(case, kept)
+        names = self._names(self.store, case, kept, of)
+        before = () if self.store.recheck or self.replayed else tuple(map(self.store.read, names))
+        runs = (one.verdict.because for one in before if one is not None)
+        known = next((one.run for one in runs if isinstance(one, StoredRun)), None)
+        found = self._gone_through(case, kept) if known is None else known
+        if found is not None and (known is None or None in before):
+            shown = Proved(StoredRun(found, len(found) * self.systems[kept.system].tick_ms), "replay")
+            for name in names:
+                self.store.write(name, shown, kept.system)
+        return found
+
+    def _gone_through(self, case: Property, kept: KeptRun) -> Run | None:
+        from rovercheck.checker.verify.runs.known_runs import reached_by
+
+        return reached_by(kept.run, self.systems[kept.system], replace(case, on=kept.system))
+
+    def _names(self, store: "VerdictStore", case: Property, kept: KeptRun, of: Result) -> list[str]:
+        """The names to keep it under: by the slices that the proof depends on, which hold all of the case."""
+        about = kept.system in (of.property.on, self.systems[of.property.on].concrete)
+        by = of.same_under if about else ()
+        whole = (self.systems[kept.system],) if not by else ()
+        names = (store.about("case", case, one, kept.run) for one in (*by, *whole))
+        return [name for name in names if name is not None]
 
 
 def _searched(

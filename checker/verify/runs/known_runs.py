@@ -11,6 +11,9 @@ from rovercheck.properties.reduce import Question, reduce
 from rovercheck.spec_model.lang.evaluate import admissible, step
 from rovercheck.spec_model.lang.system import System
 
+SHORT = 200
+"""Ticks that the reference semantics goes through while a step is compiled."""
+
 
 def run_of(verdict: Verdict) -> Run | None:
     """The run that a verdict rests on, if it is a finite one."""
@@ -60,6 +63,17 @@ def reaching(
             return
 
 
+def reached_by(run: Run, system: System, prop: Property) -> Run | None:
+    """The run up to where the property is violated, or reached; None where that does not happen in it.
+
+    A short one is gone through by the reference semantics, which is quicker than compiling the system.
+    """
+    if len(run) > SHORT:
+        return reached(system, [prop], [run]).get(prop.id)
+    ticks = _reached(reduce(lowered(system), [prop]), run).get(prop.id)
+    return None if ticks is None else Run(run.frozen, run.inputs[:ticks])
+
+
 def confirm(system: System, prop: Property, run: Run) -> None:
     """Raises ``AssertionError``, an internal error, unless the property is violated, or reached, after the
     run by the reference semantics, and not before."""
@@ -99,8 +113,10 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
         for goal in question.goals:
             if after[goal.var.name]:
                 found.setdefault(goal.property.id, number)
+        if len(found) == len(question.goals):
+            break
         at = {n: v for n, v in after.items() if n not in inputs}
     return found
 
 
-__all__ = ["confirm", "reached", "reaching", "run_in", "run_of"]
+__all__ = ["confirm", "reached", "reached_by", "reaching", "run_in", "run_of"]
