@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import cast
 
-from rovercheck.checker.encode.value_sets import EITHER, TRUE, NoValue, Values, hull, whole, within
+from rovercheck.checker.encode.value_sets import EITHER, TRUE, NoValue, Values, hull, joined, whole, within
 from rovercheck.checker.encode.values import AnalysisEffort, KnownValues, TooMuch, ValuesOf, assumed, settled
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named
@@ -25,19 +25,34 @@ class Narrowed:
     values: Mapping[str, Values]
 
 
-def narrowed(system: TransitionSystem) -> Narrowed:
+def narrowed(system: TransitionSystem, guesses: Sequence[Mapping[str, Values]] = ()) -> Narrowed:
     """The system as it was where it takes too long to look at.
 
-    Sound as long as no tick leaves a domain; no tick does of a system that was lowered, which raises a flag
-    instead.
+    Of ``guesses`` what its variables are worth, say those of a system before an edit, the first is used to
+    which no tick adds.  Sound as long as no tick leaves a domain; no tick does of a system that was lowered,
+    which raises a flag instead.
     """
     effort = AnalysisEffort()
     try:
-        before = settled(system, effort)
-        step = _Narrowing(system, before, effort).step
+        begun = (before for guess in guesses if (before := _begun(system, guess)) is not None)
+        tried = (_Narrowing(system, before, effort) for before in begun)
+        made = next((one for one in tried if one.closed), None)
+        if made is None:
+            made = _Narrowing(system, settled(system, effort), effort)
+        step = made.step
     except TooMuch:
         return Narrowed(system, {})
-    return Narrowed(system if step is None else replace(system, step=step), before)
+    return Narrowed(system if step is None else replace(system, step=step), made.before)
+
+
+def _begun(system: TransitionSystem, guess: Mapping[str, Values]) -> dict[str, Values] | None:
+    """The guess for what the system has; None where it does not hold before the first tick."""
+    free = {v.name: whole(v.domain) for v in system.frozen}
+    for var in system.variables:
+        first: Values = frozenset({system.init[var.name]})
+        if joined(first, guess.get(var.name, first)) != guess.get(var.name):
+            return None
+    return {**free, **{v.name: guess[v.name] for v in system.variables}}
 
 
 class _Narrowing:
@@ -46,22 +61,35 @@ class _Narrowing:
     def __init__(
         self, system: TransitionSystem, before: Mapping[str, Values], effort: AnalysisEffort
     ) -> None:
-        self._system, self._before, self._effort = system, before, effort
+        self._system, self.before, self._effort = system, before, effort
 
-    @cached_property
+    @property
     def step(self) -> Program | None:
         """None where no tick is possible."""
+        return None if self._made is None else self._made[0]
+
+    @property
+    def closed(self) -> bool:
+        """Whether no tick adds to what variables are worth."""
+        if self._made is None:
+            return True
+        after = self._made[1]
+        own = (v.name for v in self._system.variables)
+        return all(joined(self.before[name], after[name]) == self.before[name] for name in own)
+
+    @cached_property
+    def _made(self) -> tuple[Program, KnownValues] | None:
         system = self._system
         free = {v.name: whole(v.domain) for v in (*system.inputs, *system.temps)}
         try:
-            at = assumed(system.assume, True, KnownValues({**self._before, **free}), self._effort)
+            at = assumed(system.assume, True, KnownValues({**self.before, **free}), self._effort)
             out: list[Statement] = []
             for statement in system.step:
                 at.settle()
                 out += self._program([statement], at)
         except NoValue:
             return None
-        return tuple(out)
+        return tuple(out), at
 
     def _program(self, program: Sequence[object], at: KnownValues) -> list[Statement]:
         out: list[Statement] = []

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import sha256
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rovercheck.checker.cache import entries
 from rovercheck.checker.cache.places import STORE
@@ -23,6 +23,9 @@ from rovercheck.checker.store.verdict_json import Definite, entry, necessary_inp
 from rovercheck.checker.store.versions import as_loaded, deciding
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 from rovercheck.spec_model.lang.system import FREE, System
+
+if TYPE_CHECKING:
+    from rovercheck.checker.store.slices import SliceTexts
 
 SCHEMA = "rovercheck/stored-verdict/1"
 _LARGEST = 4 << 20
@@ -131,16 +134,19 @@ class VerdictStore:
 
     def texts(self, prop: Property, systems: Mapping[str, System]) -> list[str | None]:
         """The keys of the slices of the systems; one that cannot be read has none."""
-        from rovercheck.checker.store.slices import slice_text
-
         if isinstance(prop.form, Unbounded):
             return [None]
         try:
-            return [
-                slice_text(replace(prop, on=name), systems[name]) for name in self._systems(prop, systems)
-            ]
+            named = self._systems(prop, systems)
+            return [self._slices(replace(prop, on=name), systems[name]) for name in named]
         except (NoKey, RecursionError, OSError):
             return [None]
+
+    @cached_property
+    def _slices(self) -> "SliceTexts":
+        from rovercheck.checker.store.slices import SliceTexts
+
+        return SliceTexts(lambda system: self.about("values", system))
 
     def of_texts(self, prop: Property, texts: Sequence[str | None]) -> str | None:
         """The name of the entry about slices with these keys; None where one has none."""

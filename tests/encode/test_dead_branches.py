@@ -4,10 +4,14 @@ from dataclasses import replace
 
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
 from rovercheck.checker.encode import values as known_values
 from rovercheck.checker.encode.dead_branches import narrowed
+from rovercheck.checker.encode.value_sets import FEW, Values, joined
 from rovercheck.checker.encode.values import values
+from rovercheck.checker.system.intervals import Interval
+from rovercheck.checker.system.text import SystemText
 from rovercheck.spec_model.lang.action import Assign, If, assign
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, flag, ite, var
@@ -32,6 +36,14 @@ def same(system: TransitionSystem) -> None:
     assert whole.states == less.states
     assert whole.reached == less.reached
     assert least.values == values(system)
+    again = narrowed(system, [least.values])
+    assert again.values == least.values and written(again.system) == written(least.system)
+
+
+def written(system: TransitionSystem) -> str:
+    text = SystemText()
+    text.system(system)
+    return text.digest
 
 
 @given(transition_systems())
@@ -53,6 +65,38 @@ def held(free: Var) -> Var:
 @given(timed_systems())
 def test_also_of_charts_with_timers(system: TransitionSystem) -> None:
     same(system)
+
+
+@given(transition_systems(), st.data())
+def test_also_with_wrong_guesses_of_what_variables_are_worth(
+    system: TransitionSystem, data: st.DataObject
+) -> None:
+    """Values are left out, added, or of another system; one guess may be right."""
+    fewer, more = (
+        {
+            v.name: data.draw(some_values(v), label=v.name)
+            for v in system.variables
+            if data.draw(st.booleans())
+        }
+        for _ in range(2)
+    )
+    right = values(system)
+    guesses = data.draw(st.permutations([{**right, **fewer}, {**right, **more}, fewer, {}]))
+    least = narrowed(system, guesses)
+    whole, less = naive.search(system, system.variables), naive.search(least.system, system.variables)
+    assert whole.states == less.states
+    assert whole.reached == less.reached
+    held = {v.name for v in system.frozen}
+    for name, found in right.items():
+        assert name in held or joined(found, least.values[name]) == least.values[name]
+
+
+def some_values(of: Var) -> st.SearchStrategy[Values]:
+    low, high = of.domain.low, of.domain.high
+    ends = st.tuples(st.integers(low - 1, high + 1), st.integers(low - 1, high + 1))
+    return st.one_of(
+        st.frozensets(st.integers(low, high), min_size=1, max_size=FEW), ends.map(lambda two: Interval(*two))
+    )
 
 
 # --- what is left ----------------------------------------------------------------------------------------

@@ -1,6 +1,9 @@
 """A whole system as a transition system: components in order, enabled subsystems, domain checks."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Generic, TypeVar
 
 from rovercheck.spec_model.lang.action import Assign, If, each_action
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
@@ -9,6 +12,10 @@ from rovercheck.spec_model.lang.lower.flow import ChartFlow
 from rovercheck.spec_model.lang.lower.ranges import check_of, guarded
 from rovercheck.spec_model.lang.system import Program, Statement, System, TransitionSystem
 from rovercheck.spec_model.lang.wellformed import check_system
+
+T = TypeVar("T")
+_KEPT = 256
+"""Charts, and blocks, of which the lowered form is remembered."""
 
 
 def lower(system: System) -> TransitionSystem:
@@ -50,18 +57,52 @@ class _Made:
                 case Chart():
                     out += self._chart(component)
                 case Block():
-                    out += _block(component.do)
+                    out += _lowered_block(_Part(component))
                 case Enabled():
                     out.append(If(component.by, self.run(component.components)))
         return tuple(out)
 
-    def _chart(self, chart: Chart) -> list[Statement]:
-        flow = ChartFlow(chart, self.tick_ms, self.elapsed)
-        statements = flow.step()
+    def _chart(self, chart: Chart) -> Program:
+        made = _lowered_chart(_Part(chart), self.tick_ms, _Part(self.elapsed))
         self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
-        self.timers += flow.timers.variables
-        self.flags += flow.flags
-        return statements
+        self.timers += made.timers
+        self.flags += made.flags
+        return made.step
+
+
+# --- charts and blocks that several systems share are lowered once ---------------------------------
+
+
+class _Part(Generic[T]):
+    """A part of a system as a key: equal to itself alone (formulas cannot be compared)."""
+
+    def __init__(self, part: T) -> None:
+        self.part = part
+
+    def __hash__(self) -> int:
+        return id(self.part)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Part) and other.part is self.part
+
+
+@dataclass(frozen=True)
+class _LoweredChart:
+    step: Program
+    timers: tuple[Var, ...]
+    flags: tuple[Var, ...]
+
+
+@lru_cache(maxsize=_KEPT)
+def _lowered_chart(chart: _Part[Chart], tick_ms: int, elapsed: _Part[Var | None]) -> _LoweredChart:
+    flow = ChartFlow(chart.part, tick_ms, elapsed.part)
+    step = tuple(flow.step())
+    return _LoweredChart(step, tuple(flow.timers.variables), tuple(flow.flags))
+
+
+@lru_cache(maxsize=_KEPT)
+def _lowered_block(block: _Part[Block]) -> Program:
+    return tuple(_block(block.part.do))
 
 
 def _block(actions: Sequence[object]) -> list[Statement]:
