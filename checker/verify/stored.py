@@ -24,8 +24,8 @@ from rovercheck.checker.verify.liveness.loops import loop_query, repeated
 from rovercheck.checker.verify.portfolio.question import PortfolioQuestion
 from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.runs.known_runs import reached_by
-from rovercheck.checker.verify.runs.replay import ReplayError, replay
+from rovercheck.checker.verify.runs.known_runs import SHORT, reaching
+from rovercheck.checker.verify.runs.replay import ReplayError, ends, followed, replay
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.properties.reduce import Question, reduce
@@ -111,20 +111,29 @@ class StoredTask:
         if known is None:
             return None
         earlier = replace(found, verdict=replace(found.verdict, because=known), together=())
-        verdict = replayed(earlier, prop, self.systems)
-        return None if verdict is None else replace(earlier, verdict=verdict)
+        if isinstance(prop.form, Unbounded) or self.traces or self.store.recheck:
+            verdict = replayed(earlier, prop, self.systems)
+            return None if verdict is None else replace(earlier, verdict=verdict)
+        return earlier
 
     @staticmethod
     def _as_far_as_needed(kept: StoredRun, prop: Property, system: System) -> StoredRun | None:
-        """The run up to where it reaches the goal; all of one without end."""
+        """The run up to where it reaches the goal, if it does; one without end as it is."""
         if isinstance(prop.form, Unbounded):
             return replace(kept, shortest=False)
+        asked = replace(prop, on=system.name)
         try:
-            run = _fitted(kept.run, lowered(system))
-            found = reached_by(run, system, replace(prop, on=system.name))
-        except ModelError:
+            question = reduce(lowered(system), [asked])
+            run, [goal] = _fitted(kept.run, question.system), question.goals
+            if len(run) > SHORT:
+                run = dict(reaching(system, [asked], [run]))[prop.id]
+            ticks, last = followed(question.system, run, goal.var.name, until=goal.var.name)
+        except (ModelError, ReplayError, KeyError):
             return None
-        return None if found is None else StoredRun(found, 0, shortest=False)
+        if not ticks or not last[goal.var.name]:
+            return None
+        total = ends(question.system, ticks)[-1] if question.system.elapsed else len(ticks) * system.tick_ms
+        return StoredRun(Run(run.frozen, run.inputs[: len(ticks)]), total, shortest=False)
 
     @cached_property
     def _soon_asked_for_domains(self) -> bool:

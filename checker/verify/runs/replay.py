@@ -52,8 +52,12 @@ def ends(system: TransitionSystem, ticks: Sequence[Tick]) -> tuple[int, ...]:
     return tuple(accumulate({**t.inputs, **t.after}[name] for t in ticks))
 
 
-def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
+def followed(
+    system: TransitionSystem, run: Run, what: str, until: str = ""
+) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
     """The ticks of a run, ``what`` it shows being named in errors, and the state after the last.
+
+    With ``until``, the name of a truth value, only those up to the first after which it is true.
 
     Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees, and
     ``LeavesDomain`` when a tick leaves a domain.
@@ -69,6 +73,8 @@ def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick,
             raise leaves(system, found)
         fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
         ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(transition_of, fired))))
+        if until and after[until]:
+            break
         at = {n: v for n, v in after.items() if n not in inputs}
     return tuple(ticks), after if ticks else at
 

@@ -1,7 +1,6 @@
 """A whole system as a transition system: components in order, enabled subsystems, domain checks."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Generic, TypeVar
 
@@ -14,6 +13,7 @@ from rovercheck.spec_model.lang.system import Program, Statement, System, Transi
 from rovercheck.spec_model.lang.wellformed import check_system
 
 T = TypeVar("T")
+LoweredChart = tuple[Program, tuple[Var, ...], tuple[Var, ...]]
 _KEPT = 256
 """Charts, and blocks, of which the lowered form is remembered."""
 
@@ -63,11 +63,11 @@ class _Made:
         return tuple(out)
 
     def _chart(self, chart: Chart) -> Program:
-        made = _lowered_chart(_Part(chart), self.tick_ms, _Part(self.elapsed))
+        step, timers, flags = _lowered_chart(_Part(chart), self.tick_ms, _Part(self.elapsed))
         self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
-        self.timers += made.timers
-        self.flags += made.flags
-        return made.step
+        self.timers += timers
+        self.flags += flags
+        return step
 
 
 # --- charts and blocks that several systems share are lowered once ---------------------------------
@@ -86,18 +86,12 @@ class _Part(Generic[T]):
         return isinstance(other, _Part) and other.part is self.part
 
 
-@dataclass(frozen=True)
-class _LoweredChart:
-    step: Program
-    timers: tuple[Var, ...]
-    flags: tuple[Var, ...]
-
-
 @lru_cache(maxsize=_KEPT)
-def _lowered_chart(chart: _Part[Chart], tick_ms: int, elapsed: _Part[Var | None]) -> _LoweredChart:
+def _lowered_chart(chart: _Part[Chart], tick_ms: int, elapsed: _Part[Var | None]) -> LoweredChart:
+    """Its step, timers and flags."""
     flow = ChartFlow(chart.part, tick_ms, elapsed.part)
     step = tuple(flow.step())
-    return _LoweredChart(step, tuple(flow.timers.variables), tuple(flow.flags))
+    return step, tuple(flow.timers.variables), tuple(flow.flags)
 
 
 @lru_cache(maxsize=_KEPT)
