@@ -6,8 +6,9 @@ store that state first, and then ask of it which goals are reached.
 
 from collections.abc import Iterator
 
+from rovercheck.checker.system.live_variables import Names, live_before
 from rovercheck.checker.system.partition import expressions
-from rovercheck.checker.system.slice import Names, live_before, names
+from rovercheck.checker.system.slice import names
 from rovercheck.spec_model.lang.system import Program
 
 

@@ -178,10 +178,17 @@ class VerdictStore:
 
     def write(self, name: str | None, found: Verdict, system: str, together: Sequence[str] = ()) -> None:
         """Keep a verdict, if it is one and not too large."""
-        if name is None or not isinstance(found, Definite) or not as_loaded():
+        if name is not None:
+            self.write_under((name,), found, system, together)
+
+    def write_under(
+        self, names: Sequence[str], found: Verdict, system: str, together: Sequence[str] = ()
+    ) -> None:
+        """The same under several names."""
+        if not names or not isinstance(found, Definite) or not as_loaded():
             return
         whole = json.dumps(entry(found, system, together), separators=(",", ":")).encode()
-        if len(whole) <= _LARGEST:
+        for name in names if len(whole) <= _LARGEST else ():
             entries.write(name, whole)
 
     def necessary(self, name: str | None) -> NecessaryInputs | None:

@@ -7,18 +7,15 @@ read can reach a goal.  Wires and outputs that every tick rewrites first therefo
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
-from typing import cast
 
+from rovercheck.checker.system.live_variables import LiveCycle, Names, live_cycle
 from rovercheck.checker.system.partition import conjuncts, partition
 from rovercheck.properties.forms import Property, Recoverable
-from rovercheck.spec_model.lang.action import If
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of
-from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
+from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
-
-Names = frozenset[str]
 
 _MOST_TRIED = 1 << 14
 
@@ -30,14 +27,14 @@ def sliced(system: TransitionSystem, goals: Sequence[Var]) -> TransitionSystem:
     else the sliced step writes is in ``temps``.  Conjuncts of the assumption that can always be met
     by inputs which nothing else reads are left out.
     """
-    wanted = frozenset(g.name for g in goals)
+    wanted, own = frozenset(g.name for g in goals), frozenset(v.name for v in system.variables)
     open_groups, kept = assumption_groups(system), list[Expr]()
     while True:
-        live, step = _cyclic(system.step, wanted, names(kept), _written(system))
-        read = live | names(kept) | _all_read(step)
+        cycle = live_cycle(system.step, wanted, names(kept), own)
+        read = cycle.live | names(kept) | cycle.read
         needed = [_needed(system, group, read) for group in open_groups]
         if not any(needed):
-            return _cut(system, live, step, kept)
+            return _cut(system, cycle, read, kept)
         kept += [c for group, is_so in zip(open_groups, needed, strict=True) if is_so for c in group]
         open_groups = [group for group, is_so in zip(open_groups, needed, strict=True) if not is_so]
 
@@ -45,67 +42,6 @@ def sliced(system: TransitionSystem, goals: Sequence[Var]) -> TransitionSystem:
 def names(exprs: Iterable[Expr]) -> Names:
     """The names of the variables that occur."""
     return frozenset(variables(*exprs))
-
-
-def live_before(program: Program, after: Names) -> tuple[Names, Program]:
-    """Names whose value before the program can matter to the names ``after`` it, and the program
-    without the statements that cannot matter."""
-    live = set(after)
-    kept = _kept(program, live)
-    return frozenset(live), kept
-
-
-def _kept(program: Program, live: set[str]) -> Program:
-    """The program without what cannot matter to the ``live`` names, which become those before it."""
-    kept: list[Statement] = []
-    for statement in reversed(program):
-        if statement.written.isdisjoint(live):
-            continue
-        if isinstance(statement, If):
-            kept += _kept_choice(statement, live)
-        else:
-            live.discard(statement.var.name)
-            live |= statement.read
-            kept.append(statement)
-    return tuple(reversed(kept))
-
-
-def _kept_choice(statement: If, live: set[str]) -> list[Statement]:
-    before_else = set(live)
-    then = _kept(_program(statement.then), live)
-    otherwise = _kept(_program(statement.otherwise), before_else)
-    if not then and not otherwise:
-        return []
-    live |= before_else | statement.read
-    same = _identical(then, statement.then) and _identical(otherwise, statement.otherwise)
-    return [statement if same else If(statement.condition, then, otherwise)]
-
-
-def _program(actions: Sequence[object]) -> Program:
-    """A step holds no sends, which the type of a conditional cannot say."""
-    return cast(Program, actions)
-
-
-def _identical(a: Sequence[object], b: Sequence[object]) -> bool:
-    return len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
-
-
-def _cyclic(program: Program, wanted: Names, always: Names, written: Names) -> tuple[Names, Program]:
-    """The least set of names live at the tick boundary, and the program sliced for it."""
-    live = always
-    while True:
-        before, kept = live_before(program, wanted | (live & written))
-        if before <= live:
-            return live, kept
-        live |= before
-
-
-def _written(system: TransitionSystem) -> Names:
-    return frozenset(v.name for v in system.variables)
-
-
-def _all_read(program: Program) -> Names:
-    return frozenset[str]().union(*(statement.read_inside for statement in program))
 
 
 # --- the assumption ------------------------------------------------------------------------------
@@ -182,16 +118,14 @@ def check_way_back(prop: Property, system: TransitionSystem) -> None:
 # --- the result ----------------------------------------------------------------------------------
 
 
-def _cut(system: TransitionSystem, live: Names, step: Program, kept: Sequence[Expr]) -> TransitionSystem:
-    read = live | _all_read(step) | names(kept)
-    writes = frozenset[str]().union(*(statement.written for statement in step))
-    temps = (*system.temps, *(v for v in system.variables if v.name not in live))
+def _cut(system: TransitionSystem, cycle: LiveCycle, read: Names, kept: Sequence[Expr]) -> TransitionSystem:
+    temps = (*system.temps, *(v for v in system.variables if v.name not in cycle.live))
     return replace(
         system,
         inputs=tuple(v for v in system.inputs if v.name in read),
         frozen=tuple(v for v in system.frozen if v.name in read),
-        variables=tuple(v for v in system.variables if v.name in live),
-        temps=tuple(v for v in temps if v.name in writes),
-        step=step,
+        variables=tuple(v for v in system.variables if v.name in cycle.live),
+        temps=tuple(v for v in temps if v.name in cycle.written),
+        step=cycle.program,
         assume=all_of(*kept) if kept else TRUE,
     )

@@ -211,8 +211,7 @@ class _Keeping:
             if not all(self.gates[name].open for name in (one.property.on, one.system) if name in self.gates):
                 self._waiting.append((one, names, together))
             elif self.store is not None:
-                for name in names:
-                    self.store.write(name, one.verdict, one.system, together)
+                self.store.write_under(names, one.verdict, one.system, together)
 
     def forget(
         self, properties: Sequence[Property], known: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]]

@@ -149,8 +149,7 @@ class KnownCases:
         found = self._gone_through(case, kept) if known is None else known
         if found is not None and (known is None or None in before):
             shown = Proved(StoredRun(found, len(found) * self.systems[kept.system].tick_ms), "replay")
-            for name in names:
-                self.store.write(name, shown, kept.system)
+            self.store.write_under(names, shown, kept.system)
         return found
 
     def _gone_through(self, case: Property, kept: KeptRun) -> Run | None:

@@ -16,7 +16,7 @@ from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.checker.system.instrument.entries import ChartTransitions, Segment, TransitionGroup
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
-from rovercheck.checker.system.slice import live_before
+from rovercheck.checker.system.live_variables import live_before
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import evaluate
