@@ -132,7 +132,8 @@ class StoredTask:
             return None
         if not ticks or not last[goal.var.name]:
             return None
-        total = ends(question.system, ticks)[-1] if question.system.elapsed else len(ticks) * system.tick_ms
+        timed = question.system.elapsed is not None
+        total = ends(question.system, ticks)[-1] if timed else len(ticks) * system.tick_ms
         return StoredRun(Run(run.frozen, run.inputs[: len(ticks)]), total, shortest=False)
 
     @cached_property

@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.results.trace import Trace
-from rovercheck.checker.results.verdict import Proved, Violated
+from rovercheck.checker.results.verdict import Proved, StoredRun, Violated
 from rovercheck.properties.forms import always, leads_to, never
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.expr import flag, ite, var
+from rovercheck.spec_model.lang.expr import Var, flag, ite, var
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.lang.words import minimum
 from tests.store.lamps import BEAM, GO, ON, PUSH, decided, lamp, of, store, told
@@ -61,6 +61,21 @@ def test_a_run_is_fitted_to_inputs_that_are_new_or_gone() -> None:
         "lit-violated": TRUTH["lit-violated"]
     }
     assert engine.asked == []
+
+
+@pytest.mark.parametrize("passed", [None, var("passed", integer(30, 40, "ms"))])
+def test_where_no_trace_is_asked_for_it_is_gone_through_as_well(passed: Var | None) -> None:
+    """Also where ticks last unlike times."""
+    edited = in_order(ON, *lamp(guard=GO & ~flag("other")).components, elapsed=passed)
+    decided(in_order(ON, *lamp().components, elapsed=passed), store(), [of("lit-violated")])
+    engine = NaiveEngine()
+    [found] = decided(edited, store(), [of("lit-violated")], engine=engine)
+    assert engine.asked == [] and isinstance(found.verdict, Violated)
+    kept = found.verdict.because
+    assert isinstance(kept, StoredRun) and not kept.shortest
+    assert kept.total_ms == (
+        sum(tick["passed"] for tick in kept.run.inputs) if passed is not None else len(kept) * 20
+    )
 
 
 def test_without_a_store_every_run_is_looked_for() -> None:
