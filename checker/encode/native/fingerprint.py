@@ -30,6 +30,7 @@ SOURCES = (
     "checker/system/__init__.py",
     "checker/system/cells.py",
     "checker/system/intervals.py",
+    "checker/system/live_variables.py",
     "checker/system/text.py",
     "checker/system/partition.py",
     "checker/system/slice.py",
