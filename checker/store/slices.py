@@ -8,13 +8,14 @@ from rovercheck.checker.cache import entries
 from rovercheck.checker.encode.dead_branches import narrowed
 from rovercheck.checker.encode.value_sets import Values
 from rovercheck.checker.system.intervals import Interval
-from rovercheck.checker.system.lowering_cache import ByIdentity, lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.system.text import SystemText
 from rovercheck.checker.system.width import WIDE, bits_of, driven
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.lower import ByIdentity
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 _GUESSES = 3
@@ -56,11 +57,11 @@ class SliceTexts:
         whole = lowered(system)
         return self._least(ByIdentity(system)) if driven(whole) and bits_of(whole.variables) > WIDE else whole
 
-    def _narrowed(self, key: ByIdentity) -> TransitionSystem:
-        name = self._values(key.system.name)
+    def _narrowed(self, key: ByIdentity[System]) -> TransitionSystem:
+        name = self._values(key.part.name)
         kept = None if name is None else entries.read(name, code=False)
         guesses = [] if kept is None else _guesses(kept)
-        found = narrowed(lowered(key.system), sorted(guesses, key=_size))
+        found = narrowed(lowered(key.part), sorted(guesses, key=_size))
         if name is not None and found.values not in guesses:
             rows = [{n: _row(v) for n, v in one.items()} for one in (found.values, *guesses)]
             entries.write(name, json.dumps(rows[:_GUESSES], separators=(",", ":")).encode())

@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 
-from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.lower import ByIdentity, lower
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 _KEPT = 4
@@ -14,19 +14,6 @@ def lowered(system: System) -> TransitionSystem:
     return _lowered(ByIdentity(system))
 
 
-class ByIdentity:
-    """A system as a key of what is remembered: equal to itself alone (formulas cannot be compared)."""
-
-    def __init__(self, system: System) -> None:
-        self.system = system
-
-    def __hash__(self) -> int:
-        return id(self.system)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ByIdentity) and other.system is self.system
-
-
 @lru_cache(maxsize=_KEPT)
-def _lowered(key: ByIdentity) -> TransitionSystem:
-    return lower(key.system)
+def _lowered(key: ByIdentity[System]) -> TransitionSystem:
+    return lower(key.part)

@@ -57,13 +57,13 @@ class _Made:
                 case Chart():
                     out += self._chart(component)
                 case Block():
-                    out += _lowered_block(_Part(component))
+                    out += _lowered_block(ByIdentity(component))
                 case Enabled():
                     out.append(If(component.by, self.run(component.components)))
         return tuple(out)
 
     def _chart(self, chart: Chart) -> Program:
-        step, timers, flags = _lowered_chart(_Part(chart), self.tick_ms, _Part(self.elapsed))
+        step, timers, flags = _lowered_chart(ByIdentity(chart), self.tick_ms, ByIdentity(self.elapsed))
         self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
         self.timers += timers
         self.flags += flags
@@ -73,8 +73,11 @@ class _Made:
 # --- charts and blocks that several systems share are lowered once ---------------------------------
 
 
-class _Part(Generic[T]):
-    """A part of a system as a key: equal to itself alone (formulas cannot be compared)."""
+class ByIdentity(Generic[T]):
+    """A system, or a part of one, as a key of what is remembered: equal to itself alone.
+
+    Formulas cannot be compared.
+    """
 
     def __init__(self, part: T) -> None:
         self.part = part
@@ -83,11 +86,11 @@ class _Part(Generic[T]):
         return id(self.part)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Part) and other.part is self.part
+        return isinstance(other, ByIdentity) and other.part is self.part
 
 
 @lru_cache(maxsize=_KEPT)
-def _lowered_chart(chart: _Part[Chart], tick_ms: int, elapsed: _Part[Var | None]) -> LoweredChart:
+def _lowered_chart(chart: ByIdentity[Chart], tick_ms: int, elapsed: ByIdentity[Var | None]) -> LoweredChart:
     """Its step, timers and flags."""
     flow = ChartFlow(chart.part, tick_ms, elapsed.part)
     step = tuple(flow.step())
@@ -95,7 +98,7 @@ def _lowered_chart(chart: _Part[Chart], tick_ms: int, elapsed: _Part[Var | None]
 
 
 @lru_cache(maxsize=_KEPT)
-def _lowered_block(block: _Part[Block]) -> Program:
+def _lowered_block(block: ByIdentity[Block]) -> Program:
     return tuple(_block(block.part.do))
 
 
