@@ -47,7 +47,7 @@ def test_a_time_limit_leaves_the_goal_open() -> None:
     system, end = counters(2000, 2000, 2000)
     answer = check(system, end, limits=Limits(seconds=0.3))[0]
     assert isinstance(answer, Open) and "time" in answer.reason
-    assert answer.depth > 5
+    assert answer.depth < 6000
 
 
 def test_the_time_ends_in_the_middle_of_a_tick_with_very_many_inputs() -> None:
