@@ -1,6 +1,6 @@
 """Engines and commands without child processes: cut off as a test wants it, or at work in its own process."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from typing import Any
 
@@ -31,7 +31,9 @@ def cut_off(monkeypatch: pytest.MonkeyPatch, *events: object) -> None:
     monkeypatch.setattr(runner, "messages", messages)
 
 
-def here(work: Any, *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:
+def here(
+    work: Any, *args: Any, seconds: float | None, memory: int | None, modules: Sequence[str] = ()
+) -> Iterator[Any]:
     """``checker.process.isolate.messages`` in this process."""
     return inline(work, *args)
 

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
@@ -21,6 +21,13 @@ from time import monotonic
 from typing import IO, Any
 
 from rovercheck.checker.process.faults import Fault, has_listener, report
+from rovercheck.checker.process.fork_server import (
+    AVAILABLE,
+    SERVER_MAIN,
+    ForkedProcess,
+    ForkServer,
+    NoServer,
+)
 
 Send = Callable[[object], None]
 DEEP = 100_000
@@ -56,6 +63,7 @@ class Child:
     ``make(*args)`` is called once in the child and gives the function that is called for each order,
     as ``do(send, *order)``.  What it sends reaches ``report`` (in a thread of the parent), after each
     order an ``End``.  ``memory`` limits the address space, in bytes.  All must be picklable.
+    ``modules`` are what it will import.
     """
 
     def __init__(
@@ -64,9 +72,10 @@ class Child:
         make: Callable[..., Callable[..., None]],
         *args: object,
         memory: int | None = None,
+        modules: Sequence[str] = (),
     ) -> None:
         self._tell = report
-        started = _ready.pop() if _ready else _started()
+        started = _ready.pop() if _ready else _started(modules)
         self._process, self._errors, self._group = started.process, started.errors, started.group
         self._orders: SimpleQueue[bytes | None] = SimpleQueue()
         self._threads = [threading.Thread(target=t, daemon=True) for t in (self._feed, self._read)]
@@ -126,7 +135,7 @@ class Child:
 class _Started:
     """A process that waits for its first order; ``group``: it leads a group that is killed with it."""
 
-    process: subprocess.Popen[bytes]
+    process: subprocess.Popen[bytes] | ForkedProcess
     errors: IO[bytes]
     group: bool
 
@@ -135,21 +144,51 @@ _ready: list[_Started] = []
 """Processes started in advance, which the next ``Child`` takes."""
 
 
-def _started() -> _Started:
+_servers: list[ForkServer] = []
+"""The process that children are forked from, once there is one."""
+_servers_lost: list[NoServer] = []
+_MOST_LOST = 3
+
+
+def _started(modules: Sequence[str] = ()) -> _Started:
     """The process, in a session of its own so that Ctrl-C reaches the parent alone."""
-    path = os.pathsep.join(filter(None, sys.path))
     errors = tempfile.TemporaryFile()  # noqa: SIM115, closed when the process is killed
+    forked = _forked(modules, errors) if modules and _is_child() else None
+    if forked is not None:
+        return _Started(forked, errors, False)
     group = not _is_child() and hasattr(os, "killpg")
     process = subprocess.Popen(
         [sys.executable, "-P", "-c", _MAIN],  # -P: no module is taken from the folder we happen to be in
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=errors,
-        # One hash seed, so that the same question is put to a solver in the same words every time.
-        env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
+        env=_environment(),
         start_new_session=group,
     )
     return _Started(process, errors, group)
+
+
+def _environment() -> dict[str, str]:
+    """That of a child: one hash seed, so that a question is put to a solver in the same words every time."""
+    path = os.pathsep.join(filter(None, sys.path))
+    return {**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"}
+
+
+def _forked(modules: Sequence[str], errors: IO[bytes]) -> ForkedProcess | None:
+    """One forked from a process that has imported the modules; None where that does not work.
+
+    A child has many children of its own one after the other, the parent of all has few.
+    """
+    while AVAILABLE and len(_servers_lost) < _MOST_LOST:
+        try:
+            if not _servers:
+                _servers.append(ForkServer(_environment()))
+            return _servers[0].fork(modules, errors)
+        except NoServer as lost:
+            _servers_lost.append(lost)
+            while _servers:
+                _servers.pop().close()
+    return None
 
 
 def _signal(number: int) -> str:
@@ -163,7 +202,7 @@ def _is_fault(status: int) -> bool:
     return -status in {getattr(signal, name, 0) for name in names} - {0} or status >= _WINDOWS_FAULTS
 
 
-def _killed(process: subprocess.Popen[bytes], group: bool) -> None:
+def _killed(process: subprocess.Popen[bytes] | ForkedProcess, group: bool) -> None:
     if group:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, signal.SIGKILL)
@@ -197,16 +236,18 @@ def messages(
     seconds: float | None = None,
     memory: int | None = None,
     beat: float = 0.9,
+    modules: Sequence[str] = (),
 ) -> Generator[Any, None, None]:
     """Run ``work(send, *args)`` in a child; yield what it sends, and None after ``beat`` quiet seconds.
 
     Work and arguments must be picklable, messages never None.  Raises ``ChildStopped`` when the time or
     the memory (bytes of address space) is used up, when the work raises and when the child dies.
+    ``modules``, which the work will import, are imported once for all children where that can be.
     Closing the generator kills the child.
     """
     end = None if seconds is None else monotonic() + seconds
     inbox: SimpleQueue[object] = SimpleQueue()
-    child = Child(inbox.put, _itself, work, memory=memory)
+    child = Child(inbox.put, _itself, work, memory=memory, modules=modules)
     try:
         child.order(*args)
         while True:
@@ -254,7 +295,7 @@ def _packed(order: object) -> bytes:
 
 def _is_child() -> bool:
     """Whether this process was started here: its children then die with its session."""
-    return sys.orig_argv[-1] == _MAIN
+    return _MAIN in sys.orig_argv or SERVER_MAIN in sys.orig_argv
 
 
 __all__ = ["Child", "ChildStopped", "End", "Send", "messages", "prepared"]

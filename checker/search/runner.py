@@ -44,7 +44,8 @@ class SearchJob:
         job = self.module, self.function, self.arguments
         stopped = ""
         try:
-            with closing(messages(work, *job, seconds=seconds, memory=memory)) as events:
+            modules = [self.module]
+            with closing(messages(work, *job, seconds=seconds, memory=memory, modules=modules)) as events:
                 for event in events:
                     known.note(event)
                     progress(known.line())

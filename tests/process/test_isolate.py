@@ -6,16 +6,35 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.process import isolate
+from rovercheck.checker.process.fork_server import AVAILABLE, ForkServer
 from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 from rovercheck.spec_model.lang.expr import flag
 from rovercheck.spec_model.lang.walk import nodes
 
 ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(
+    params=["anew", pytest.param("forked", marks=pytest.mark.skipif(not AVAILABLE, reason="Linux"))]
+)
+def modules(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
+    """What a child imports: nothing where it is started anew, something where it is forked."""
+    if request.param == "anew":
+        yield []
+        return
+    servers: list[ForkServer] = []
+    monkeypatch.setattr(isolate, "_is_child", lambda: True)
+    monkeypatch.setattr(isolate, "_servers", servers)
+    yield ["json"]
+    assert len(servers) == 1
+    servers[0].close()
 
 
 def _count(send: Send, most: int) -> None:
@@ -86,15 +105,15 @@ def gone(pid: int, within: float = 5.0) -> bool:
     return not alive(pid)
 
 
-def test_messages_arrive_in_order() -> None:
-    assert [m for m in messages(_count, 1000) if m is not None] == list(range(1000))
+def test_messages_arrive_in_order(modules: list[str]) -> None:
+    assert [m for m in messages(_count, 1000, modules=modules) if m is not None] == list(range(1000))
 
 
-def test_a_deep_formula_reaches_the_child() -> None:
+def test_a_deep_formula_reaches_the_child(modules: list[str]) -> None:
     expr = flag("a") & flag("b")
     for _ in range(2000):
         expr = ~expr
-    assert [m for m in messages(_size, expr) if m is not None] == [2003]
+    assert [m for m in messages(_size, expr, modules=modules) if m is not None] == [2003]
 
 
 @pytest.mark.parametrize(
@@ -106,15 +125,15 @@ def test_a_deep_formula_reaches_the_child() -> None:
         (_tell_unreadable, "a message of the solver process cannot be read: TypeError"),
     ],
 )
-def test_a_failure_is_a_reason_and_no_traceback(work: object, reason: str) -> None:
+def test_a_failure_is_a_reason_and_no_traceback(work: object, reason: str, modules: list[str]) -> None:
     with pytest.raises(ChildStopped, match=reason):
-        list(messages(work, seconds=30))  # type: ignore[arg-type]
+        list(messages(work, seconds=30, modules=modules))  # type: ignore[arg-type]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="signals for real time")
-def test_a_signal_without_a_name_is_a_reason_too() -> None:
+def test_a_signal_without_a_name_is_a_reason_too(modules: list[str]) -> None:
     with pytest.raises(ChildStopped, match="ended by signal 40"):
-        list(messages(_signalled, 40, seconds=30))
+        list(messages(_signalled, 40, seconds=30, modules=modules))
 
 
 def test_no_module_is_taken_from_the_folder_we_are_in(
@@ -126,22 +145,22 @@ def test_no_module_is_taken_from_the_folder_we_are_in(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="address space limits")
-def test_the_memory_limit() -> None:
+def test_the_memory_limit(modules: list[str]) -> None:
     with pytest.raises(ChildStopped, match="the memory limit is reached"):
-        list(messages(_fill, memory=1 << 30))
+        list(messages(_fill, memory=1 << 30, modules=modules))
 
 
-def test_the_time_limit_kills_and_quiet_seconds_are_told() -> None:
+def test_the_time_limit_kills_and_quiet_seconds_are_told(modules: list[str]) -> None:
     heard = []
     with pytest.raises(ChildStopped, match="time limit of 5 s"):
-        for message in messages(_tell_and_sleep, 600, seconds=5, beat=0.2):
+        for message in messages(_tell_and_sleep, 600, seconds=5, beat=0.2, modules=modules):
             heard.append(message)
     [pid] = [m for m in heard if m is not None]
     assert None in heard and gone(pid)
 
 
-def test_nobody_listens_any_more() -> None:
-    with closing(messages(_tell_and_sleep, 60)) as inbox:
+def test_nobody_listens_any_more(modules: list[str]) -> None:
+    with closing(messages(_tell_and_sleep, 60, modules=modules)) as inbox:
         pid = next(m for m in inbox if m is not None)
     assert gone(pid)
 

@@ -13,7 +13,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.runs.minimise import minimise_inputs
-from rovercheck.checker.verify.runs.replay import ReplayError, replay
+from rovercheck.checker.verify.runs.replay import ReplayError, followed, traced
 from rovercheck.properties.reduce import Goal, Question
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import Bool, boolean, integer
@@ -127,9 +127,11 @@ def repeated(asked: LoopQuery, run: Run, start: int) -> Trace:
 
     Raises ``ReplayError`` unless it does.
     """
-    once = replay(asked.question.system, asked.goal, run)
-    twice = replay(asked.question.system, asked.goal, Run(run.frozen, run.inputs + run.inputs[start:]))
-    _check(asked, twice, start, len(run))
+    system, goal = asked.question.system, asked.goal
+    twice = Run(run.frozen, run.inputs + run.inputs[start:])
+    ticks, _ = followed(system, twice, goal.var.name)
+    once = traced(system, goal, run, ticks[: len(run)])
+    _check(asked, traced(system, goal, twice, ticks), start, len(run))
     return replace(once, loop=start)
 
 

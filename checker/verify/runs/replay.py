@@ -31,8 +31,13 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     interpreter of the charts computes another state or refuses a step; ``LeavesDomain`` when the run
     leaves a domain, which is an error of the model.
     """
-    ticks, last = followed(system, run, goal.var.name)
-    if not ticks or not last[goal.var.name]:
+    ticks, _ = followed(system, run, goal.var.name)
+    return traced(system, goal, run, ticks)
+
+
+def traced(system: TransitionSystem, goal: Goal, run: Run, ticks: tuple[Tick, ...]) -> Trace:
+    """The trace of a run whose ticks are known.  Raises ``ReplayError`` unless it reaches the goal."""
+    if not ticks or not ticks[-1].after[goal.var.name]:
         raise ReplayError(f"{goal.var.name}: the run of {len(ticks)} ticks does not reach the goal.")
     shown, truths = tuple(part for part, _ in goal.parts), tuple(_truths(goal, ticks))
     false = tuple(part for part, true in zip(shown, truths, strict=True) if not true[-1])
