@@ -35,7 +35,7 @@ EDITS = {
     "board1/motion": ("when=stop_commanded | critical,", "when=stop_commanded,"),
     "board2/monitors": ("recovered(source, 1 * sec)", "recovered(source, 2 * sec)"),
     "board2/obstacles": ('to("J3", when=~is_close & detected)', 'to("J3", when=detected)'),
-    "board2/failure_check": ("duration(neither_critical) > 3 * sec", "duration(neither_critical) > 2 * sec"),
+    "board2/failure_check": ('duration(named("!q", ~q)) > 3 * sec', 'duration(named("!q", ~q)) > 2 * sec'),
     "board2/acquisition": ("after(20 * ms)", "after(40 * ms)"),
 }
 """What is written in a chart, and what takes its place, once."""
