@@ -125,10 +125,15 @@ class _AtWork:
                 if seat is None or seat.number is None:
                     continue  # the last words of a child that was killed
                 event = self._event(seat, message)
+                end = message if isinstance(message, End) else None
+                if (
+                    end is not None and end.failure is None
+                ):  # it does not wait for who looks at what was heard
+                    self._next(key, end)
                 if event is not None:
                     yield event
-                if isinstance(message, End):
-                    self._next(key, message)
+                if end is not None and end.failure is not None:
+                    self._next(key, end)
 
     def kill(self) -> None:
         """End all children."""

@@ -5,6 +5,7 @@ import signal
 import time
 from contextlib import closing
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -103,3 +104,20 @@ def test_the_children_of_a_child_die_with_it() -> None:
 def test_a_child_that_cannot_begin_fails_its_orders() -> None:
     found = heard("count", "count", pool=replace(POOL, args=()))
     assert all("greeting" in str(events[-1].failure) for events in found.values())
+
+
+class Touching:
+    """Makes the file that an order names."""
+
+    def __call__(self, _: Send, path: str) -> None:
+        Path(path).touch()
+
+
+def test_a_child_does_not_wait_for_who_looks_at_what_was_heard(tmp_path: Path) -> None:
+    one, two = tmp_path / "one", tmp_path / "two"
+    with closing(Pool(1, Touching).run([Order((str(one),)), Order((str(two),))])) as events:
+        assert next(events).done
+        end = time.monotonic() + 10
+        while not two.exists() and time.monotonic() < end:
+            time.sleep(0.01)
+        assert one.exists() and two.exists()

@@ -41,9 +41,9 @@ def gone_through(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The properties of which a recorded run is gone through."""
     found, way = list[str](), known_runs.reached_by
 
-    def noted(run: Run, system: System, prop: Property) -> Run | None:
+    def noted(run: Run, system: System, prop: Property, *, confirmed: bool) -> Run | None:
         found.append(prop.id)
-        return way(run, system, prop)
+        return way(run, system, prop, confirmed=confirmed)
 
     monkeypatch.setattr(known_runs, "reached_by", noted)
     return found

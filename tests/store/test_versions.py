@@ -47,7 +47,7 @@ from rovercheck.spec_model.lang.system import in_order
 from rovercheck.checker.certify import solver
 from rovercheck.checker.search import runner
 
-def here(work, *args, seconds=None, memory=None):
+def here(work, *args, seconds=None, memory=None, modules=()):
     sent = []
     work(sent.append, *args)
     return iter(sent)

@@ -7,14 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.verify.runs import known_runs
 from rovercheck.checker.verify.runs.compiled_step import CompiledStep, TooDeep
 from rovercheck.checker.verify.runs.known_runs import reached
+from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.evaluate import admissible, step
 from rovercheck.spec_model.lang.expr import Expr, Var, flag, ite, var
-from rovercheck.spec_model.lang.system import TransitionSystem
-from tests.mutate.lamp import LIT, lamps
+from rovercheck.spec_model.lang.system import System, TransitionSystem
+from tests.mutate.lamp import LIT, NEVER, lamps
 from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, filling, relay
@@ -100,3 +102,18 @@ def test_what_only_compiled_code_finds_is_a_bug_of_ours(monkeypatch: pytest.Monk
     monkeypatch.setattr("rovercheck.checker.verify.runs.known_runs._first", lambda _: lambda run: {"LIT": 1})
     with pytest.raises(AssertionError, match="LIT: a run of 1 ticks reaches it only as compiled"):
         reached(lamps, [LIT], [Run({}, ({"press": 0, "level": 0},))])
+
+
+def test_a_long_run_on_record_is_not_confirmed_once_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    off, on = {"press": 0, "level": 0}, {"press": 1, "level": 2}
+    run = Run({}, (off,) * known_runs.SHORT + (on,) * 4)
+    confirmed, way = list[int](), known_runs.confirm
+
+    def noted(system: System, prop: Property, reaching: Run) -> None:
+        confirmed.append(len(reaching))
+        way(system, prop, reaching)
+
+    monkeypatch.setattr(known_runs, "confirm", noted)
+    found = known_runs.reached_by(run, lamps, NEVER, confirmed=False)
+    assert found is not None and len(found) > known_runs.SHORT and not confirmed
+    assert known_runs.reached_by(run, lamps, NEVER) == found and confirmed == [len(found)]

@@ -155,7 +155,9 @@ class KnownCases:
     def _gone_through(self, case: Property, kept: KeptRun) -> Run | None:
         from rovercheck.checker.verify.runs.known_runs import reached_by
 
-        return reached_by(kept.run, self.systems[kept.system], replace(case, on=kept.system))
+        confirmed = self.store is None or self.store.recheck or self.replayed
+        asked = replace(case, on=kept.system)
+        return reached_by(kept.run, self.systems[kept.system], asked, confirmed=confirmed)
 
     def _names(self, store: "VerdictStore", case: Property, kept: KeptRun, of: Result) -> list[str]:
         """The names to keep it under: by the slices that the proof depends on, which hold all of the case."""

@@ -61,6 +61,8 @@ class NativeSearch:
     task: NativeTask
     library: NativeLibrary
     level: OptimisationLevel
+    text: str | None = None
+    """The module, where it was written and better code may be made of it."""
 
     @staticmethod
     def compile(task: NativeTask) -> "NativeSearch":
@@ -71,12 +73,18 @@ class NativeSearch:
         fast = _kept("search", task, OptimisationLevel.FAST)
         if fast is not None:
             return NativeSearch(task, fast, OptimisationLevel.FAST)
-        return NativeSearch(task, *_library("search", task, OptimisationLevel.QUICK))
+        kept = _kept("search", task, OptimisationLevel.QUICK)
+        if kept is not None:
+            return NativeSearch(task, kept, OptimisationLevel.QUICK)
+        text = assembly("search", task)
+        return NativeSearch(task, *_made("search", task, OptimisationLevel.QUICK, text), text)
 
     def improve(self) -> None:
         """Compile to code that runs fast, unless that was done."""
         if self.level is not OptimisationLevel.FAST:
-            self.library, self.level = _library("search", self.task, OptimisationLevel.FAST)
+            text = self.text or assembly("search", self.task)
+            self.library, self.level = _made("search", self.task, OptimisationLevel.FAST, text)
+            self.text = None
 
     def search(self, *arrays: NDArray[Any]) -> Status:
         """context, words, parents, table, buffer, origins, hits: see ``search.add_search``."""
@@ -120,7 +128,7 @@ class NativeRetrace:
 
     @staticmethod
     def compile(task: NativeTask) -> "NativeRetrace":
-        return NativeRetrace(task, _library("retrace", task, _level(task))[0])
+        return NativeRetrace(task, _library("retrace", task, _level(task)))
 
     def inputs(self, before: Words, target: Words, wanted: int) -> dict[str, int]:
         """The inputs read on a path from ``before`` that fits, by name.  Raises ``LookupError``."""
@@ -144,7 +152,7 @@ class NativeSuccessors:
     @staticmethod
     def compile(task: NativeTask) -> "NativeSuccessors":
         """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
-        return NativeSuccessors(task, _library("successors", task, _level(task))[0])
+        return NativeSuccessors(task, _library("successors", task, _level(task)))
 
     def __call__(self, words: Words, room: int) -> tuple[ExpansionEnd, int, Words, NDArray[np.int64]]:
         """Why it ended, how many of the states are expanded, where their ticks lead, and from which."""
@@ -187,14 +195,15 @@ LARGE = 1 << 20
 and twice the module takes it far more than twice the time.  The largest of the rover has half as many."""
 
 
-def _library(
-    kind: Kind, task: NativeTask, level: OptimisationLevel
+def _library(kind: Kind, task: NativeTask, level: OptimisationLevel) -> NativeLibrary:
+    """The code from the cache, or compiled and kept there."""
+    return _kept(kind, task, level) or _made(kind, task, level, assembly(kind, task))[0]
+
+
+def _made(
+    kind: Kind, task: NativeTask, level: OptimisationLevel, text: str
 ) -> tuple[NativeLibrary, OptimisationLevel]:
-    """The code from the cache, or compiled and kept there; ``FAST`` also where it cannot be made faster."""
-    kept = _kept(kind, task, level)
-    if kept is not None:
-        return kept, level
-    text = assembly(kind, task)
+    """The code compiled and kept in the cache; ``FAST`` also where it cannot be made faster."""
     large = len(text) > LARGE
     code = object_code(text, OptimisationLevel.QUICK if large else level)
     level = OptimisationLevel.FAST if large else level

@@ -63,13 +63,15 @@ def reaching(
             return
 
 
-def reached_by(run: Run, system: System, prop: Property) -> Run | None:
+def reached_by(run: Run, system: System, prop: Property, *, confirmed: bool = True) -> Run | None:
     """The run up to where the property is violated, or reached; None where that does not happen in it.
 
-    A short one is gone through by the reference semantics, which is quicker than compiling the system.
+    A short one is gone through by the reference semantics, which is quicker than compiling the system.  A
+    long one is also ``confirmed`` by it, unless that was done when the run was recorded.
     """
     if len(run) > SHORT:
-        return reached(system, [prop], [run]).get(prop.id)
+        way = reached if confirmed else reaching
+        return dict(way(system, [prop], [run])).get(prop.id)
     ticks = _reached(reduce(lowered(system), [prop]), run).get(prop.id)
     return None if ticks is None else Run(run.frozen, run.inputs[:ticks])
 
