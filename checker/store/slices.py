@@ -3,14 +3,15 @@
 import json
 from collections.abc import Callable, Mapping
 from functools import lru_cache
+from hashlib import sha256
 
 from rovercheck.checker.cache import entries
 from rovercheck.checker.encode.dead_branches import narrowed
 from rovercheck.checker.encode.value_sets import Values
+from rovercheck.checker.system.digest import PartDigests
 from rovercheck.checker.system.intervals import Interval
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.slice import sliced
-from rovercheck.checker.system.text import SystemText
 from rovercheck.checker.system.width import WIDE, bits_of, driven
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import reduce
@@ -31,6 +32,7 @@ class SliceTexts:
 
     def __init__(self, values: Callable[[str], str | None]) -> None:
         self._values = values
+        self._digests = PartDigests()
         self._least = lru_cache(maxsize=2)(self._narrowed)
 
     def __call__(self, prop: Property, system: System) -> str | None:
@@ -45,12 +47,11 @@ class SliceTexts:
         whole = question.system
         goals = [v for goal in question.goals for v in (goal.var, *goal.recurs)]
         checks = [check for check, _ in whole.checks]
-        text = SystemText()
-        text.add(system.name, system.over, system.under, system.concrete, whole.tick_ms, whole.elapsed)
-        text.add("goals", *map(text.expr, goals))
-        text.add("checks", *map(text.expr, checks))
-        text.system(sliced(whole, [*goals, *checks]))
-        return text.digest
+        least = sliced(whole, [*goals, *checks])
+        said = system.name, system.over, system.under, system.concrete, whole.tick_ms, len(goals)
+        parts = self._digests.system(least), *map(self._digests.expr, (*goals, *checks))
+        elapsed = b"" if whole.elapsed is None else self._digests.expr(whole.elapsed)
+        return sha256(b"\n".join((repr(said).encode(), *parts, elapsed))).hexdigest()
 
     def _without_dead_branches(self, system: System) -> TransitionSystem:
         """The transition system; of a scene, in which little is chosen, only what it makes the system do."""
