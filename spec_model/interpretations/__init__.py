@@ -67,7 +67,8 @@ class Alternative:
             made = Merge(self.condition).components(self.change(part), part)
         except ModelError as error:
             raise ModelError(
-                f"{self.place}: {self.interpretation}={self.choice} does not fit. {error}"
+                f"{self.place}: {self.interpretation}={self.choice} does not fit. {error} "
+                "Write what it changes for the chart as it is now."
             ) from error
         if made == (part,):
             raise ModelError(

@@ -12,6 +12,7 @@ from rovercheck.checker.commands.check.premises import premise_case
 from rovercheck.checker.commands.report import command
 from rovercheck.checker.commands.report import graphs as reviewing_graphs
 from rovercheck.checker.commands.report import report as verb
+from rovercheck.checker.commands.report import rover as of_the_rover
 from rovercheck.checker.commands.report import run as reviewing
 from rovercheck.checker.commands.report.data import by_number, cause, drawn, named, written
 from rovercheck.checker.commands.report.graphs import state_graphs
@@ -26,6 +27,10 @@ from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.expected import Expected
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.repairs import Repair
 from rovercheck.spec_model.rover import systems
 from tests.render.test_page import Reader
 from tests.render.test_review import unpacked
@@ -155,6 +160,35 @@ def test_after_an_interruption_nothing_is_written(
     assert run(["report", "PB1-15", "-o", str(file)]) == Exit.INTERRUPTED
     assert not file.exists()
     assert "0 of 1 properties decided; nothing was written" in capsys.readouterr().err
+
+
+def test_a_repair_that_does_not_fit_an_edited_chart_is_told_on_the_page(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def gone(chart: Chart) -> Chart:
+        raise ModelError("Relay has no state Gone.")
+
+    repair = Repair("gone", "Nothing.", ("PB1-15",), charts={"Relay": gone})
+    monkeypatch.setattr(of_the_rover, "repairs", lambda: {"gone": repair})
+    file = tmp_path / "review.html"
+    assert run(["report", "PB1-15", "-o", str(file)]) == Exit.AS_EXPECTED
+    said = "does not fit the charts"
+    assert f"The repair gone {said}, and is not decided. " in " ".join(capsys.readouterr().err.split())
+    section = entry(file.read_text(encoding="utf-8"), "PB1-15")
+    assert "not decided" in section and said in section and "Relay has no state Gone." in section
+
+
+def test_an_interpretation_that_does_not_fit_an_edited_chart_is_told_before_anything_is_searched(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def unfit(name: str) -> System:
+        raise ModelError(f"S01=AT-ONCE does not fit {name}.")
+
+    monkeypatch.setattr(reviewing, "results", None)
+    monkeypatch.setattr(reviewing, "left_to_read", unfit)
+    file = tmp_path / "review.html"
+    assert run(["report", "PB1-15", "-o", str(file)]) == Exit.USAGE
+    assert "S01=AT-ONCE does not fit relay" in capsys.readouterr().err and not file.exists()
 
 
 def test_an_unfinished_search_is_a_finding_and_no_pass(tmp_path: Path) -> None:

@@ -90,7 +90,8 @@ def test_an_alternative_that_does_not_fit_says_where_it_is_written() -> None:
     line = gone.place.line if gone.place else 0
     assert str(refused.value) == (
         f"tests/interpretations/test_interpretations.py:{line}: S14=GE does not fit. "
-        "Monitor_temperature has no formula `temperature_degC > 500` any more."
+        "Monitor_temperature has no formula `temperature_degC > 500` any more. "
+        "Write what it changes for the chart as it is now."
     )
 
 

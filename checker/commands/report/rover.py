@@ -10,6 +10,7 @@ from rovercheck.checker.cache.entries import MEANINGLESS
 from rovercheck.checker.commands.report.data import Extras
 from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
 from rovercheck.checker.commands.shared.dependencies import of_verdict
+from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import AUTO
 from rovercheck.checker.model.kept_invariants import invariants_of_rover
@@ -29,6 +30,7 @@ from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.ambiguity import Ambiguity, ambiguities
 from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.repairs import Repair, repairs
 
 
@@ -76,7 +78,18 @@ def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
     violated = {c.result.property.id for c in found if c.verdict.word == "violated"}
     for repair in repairs().values():
         if not violated.isdisjoint(repair.fixes):
-            yield remedy(Proof(repair, tuple(_decided(repair, violated))))
+            try:
+                yield remedy(Proof(repair, tuple(_decided(repair, violated))))
+            except ModelError as error:  # a chart was edited where the repair changes it
+                yield _unfit(repair, violated, str(error))
+
+
+def _unfit(repair: Repair, violated: set[str], why: str) -> Remedy:
+    """A repair that the charts as they are now have no place for; the message says which."""
+    err.print(f"The repair {repair.name} does not fit the charts, and is not decided. {why}")
+    said = f"the repair does not fit the charts as they are. {why}"
+    rows = tuple((id, "not decided", said) for id in repair.fixes if id in violated)
+    return Remedy(repair.name, repair.text, (), rows, tuple(repair.gives_up.items()), _again(repair))
 
 
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
@@ -98,8 +111,12 @@ def remedy(proof: Proof) -> Remedy:
         tuple(_edits(proof)),
         tuple((r.property.id, _word(r), evidence(r)) for r in proof.results),
         tuple(one.gives_up.items()),
-        f"rovercheck check --timers free --repair {one.name}",
+        _again(one),
     )
+
+
+def _again(repair: Repair) -> str:
+    return f"rovercheck check --timers free --repair {repair.name}"
 
 
 def _word(result: Result) -> str:

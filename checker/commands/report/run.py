@@ -30,6 +30,7 @@ from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, wors
 from rovercheck.checker.verify.finding_order import order_of
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property
+from rovercheck.spec_model.rover import left_to_read
 
 
 def report(
@@ -42,11 +43,15 @@ def report(
 ) -> Exit:
     """Decide the properties and write the page, all of it or nothing; a ``keeper`` keeps it.
 
-    Raises ``UsageError`` where a file cannot be written or printed.
+    Raises ``UsageError`` where a file cannot be written or printed, and ``ModelError``, before anything is
+    searched, where a chart was edited in a place that an alternative interpretation changes.
     """
     if not properties:
         err.print("Nothing to report on: the selection holds no property.")
         return Exit.NOTHING
+    if variant.own is None:  # what verdicts depend on is found with these
+        for name in sorted({prop.on for prop in properties}):
+            left_to_read(name)
     model = replace(variant.model, systems=variant.systems())
     known = read(file_of(variant.model)) if options.premises is not False else {}
     found: list[CheckedProperty] = []
