@@ -123,6 +123,10 @@ def unexplained(trace: Trace) -> str:
     return ""
 
 
+class NotLookedFor(Exception):
+    """Nobody has looked for the cause of a finding yet."""
+
+
 def explained_once(
     trace: Trace,
     prop: Property,
@@ -130,19 +134,24 @@ def explained_once(
     store: "VerdictStore | None",
     progress: Progress = quiet,
     seconds: float | None = None,
+    kept_only: bool = False,
 ) -> Trace:
     """As ``explained``; what is in the store is not looked for again, and what is found is kept there.
 
     At most so many ``seconds`` of computing, which a busy machine does not shorten.  A set of inputs of which
     some may not matter, and that nothing was found, is kept for as many seconds only.  Raises what
-    ``explained`` raises.
+    ``explained`` raises, and ``NotLookedFor`` if the cause is not kept and only what is ``kept`` is wanted.
     """
     start = process_time()
 
     def over() -> bool:
         return seconds is not None and process_time() - start > seconds
 
+    if unexplained(trace) or not len(trace):
+        return trace
     if store is None:
+        if kept_only:
+            raise NotLookedFor(prop.id)
         return explained(trace, prop, system, progress, over)
     name = store.about("cause", prop, system, run_in(trace))
     parts = PartStore(store)
@@ -152,6 +161,8 @@ def explained_once(
         return replace(trace, necessary=known)
     if isinstance(late := parts.read(within), str):
         raise OutOfTime(late)
+    if kept_only:
+        raise NotLookedFor(prop.id)
     try:
         found = explained(trace, prop, system, progress, over)
     except OutOfTime as late:

@@ -15,7 +15,7 @@ from rovercheck.checker.commands.report import report as verb
 from rovercheck.checker.commands.report import rover as of_the_rover
 from rovercheck.checker.commands.report import run as reviewing
 from rovercheck.checker.commands.report.data import by_number, cause, drawn, named, written
-from rovercheck.checker.commands.report.graphs import state_graphs
+from rovercheck.checker.commands.report.graphs import LEFT_OUT, state_graphs
 from rovercheck.checker.commands.report.rover import coverage
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import Limits
@@ -189,6 +189,28 @@ def test_an_interpretation_that_does_not_fit_an_edited_chart_is_told_before_anyt
     file = tmp_path / "review.html"
     assert run(["report", "PB1-15", "-o", str(file)]) == Exit.USAGE
     assert "S01=AT-ONCE does not fit relay" in capsys.readouterr().err and not file.exists()
+
+
+def test_at_once_nothing_is_looked_for_that_is_not_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROVERCHECK_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("ROVERCHECK_SECRET", str(tmp_path / "secret"))
+    monkeypatch.delenv("ROVERCHECK_STORE", raising=False)
+    file = tmp_path / "review.html"
+
+    def page(*options: str) -> str:
+        assert run(["report", "PB1-15", "-o", str(file), *options]) == Exit.AS_EXPECTED
+        return file.read_text(encoding="utf-8")
+
+    forced = "inputs that determine"
+    early = page("--at-once")
+    assert "the inputs that force 1 finding, and repairs" in early
+    assert "not decided" in entry(early, "PB1-15") and LEFT_OUT in early
+    assert LEFT_OUT not in (whole := page()) and "not decided" not in entry(whole, "PB1-15")
+    late = page("--at-once")
+    assert "Left out" in late and "force 1 finding" not in late and LEFT_OUT not in late
+    assert (forced in entry(early, "PB1-15"), forced in entry(late, "PB1-15")) == (False, True)
 
 
 def test_an_unfinished_search_is_a_finding_and_no_pass(tmp_path: Path) -> None:

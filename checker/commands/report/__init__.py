@@ -36,7 +36,8 @@ class PageOptions:
     ``premises`` and ``explain`` are None where a user wrote nothing: then each is looked for as long as
     ``check`` and ``trace`` do.  ``command`` is the command line itself; ``date``, ``document`` and
     ``reviewer`` are shown as given.  ``pdf`` is a file to print the page into.  ``some``: properties were
-    selected.
+    selected.  ``at_once``: causes, repairs and graphs that are not kept are left out, among them the causes
+    of so many findings (``without_cause``).
     """
 
     certify: bool = False
@@ -51,6 +52,8 @@ class PageOptions:
     memory: float = 8.0
     command: str = ""
     some: bool = False
+    at_once: bool = False
+    without_cause: int = 0
 
 
 @click.command(short_help="Write one page with all verdicts, for reviewers.")
@@ -70,6 +73,11 @@ class PageOptions:
     help="Print the page into this file too, with an installed Chromium.",
 )
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
+@click.option(
+    "--at-once",
+    is_flag=True,
+    help="Leave out causes, repairs and state graphs that nobody has looked for yet; the page says so.",
+)
 @click.option("--no-repairs", is_flag=True, help="Without deciding the proposed repairs.")
 @click.option(
     "--premises/--no-premises",
@@ -123,7 +131,7 @@ def report(
         options = replace(options, command=command(context))
         keeper = None
         asked_anew = options.certify or search.no_store or os.environ.get(STORE) == ""
-        if charts == VariantOptions() and not asked_anew:
+        if charts == VariantOptions() and not asked_anew and not options.at_once:
             keeper = PageKeeper.now(search, selection, options)
         kept = keeper.read() if keeper is not None else None
         if kept is not None:

@@ -1,13 +1,13 @@
 """What a reviewer may want on top of verdicts: what forces a counterexample."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Progress
-from rovercheck.checker.explain.explanation import explained_once
+from rovercheck.checker.explain.explanation import NotLookedFor, explained_once
 from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
@@ -23,11 +23,14 @@ if TYPE_CHECKING:
 class CauseSearch:
     """Where causes are kept that are not looked for again, and for how many seconds each other is.
 
-    None: as long as it takes.  Seconds are of computing, which a busy machine does not shorten.
+    None: as long as it takes.  Seconds are of computing, which a busy machine does not shorten.  With
+    ``kept_only`` no other is looked for; ``left`` are then the findings without.
     """
 
     store: "VerdictStore | None" = None
     seconds: float | None = None
+    kept_only: bool = False
+    left: list[str] = field(default_factory=list)
 
 
 PATIENT = CauseSearch()
@@ -66,6 +69,11 @@ def _with_reason(
 def _forced(run: Trace, prop: Property, system: System, search: CauseSearch, progress: Progress) -> Trace:
     """The run with what forces its end, as far as that is found in time."""
     try:
-        return explained_once(run, prop, system, search.store, progress, search.seconds)
+        return explained_once(
+            run, prop, system, search.store, progress, search.seconds, kept_only=search.kept_only
+        )
     except OutOfTime:
+        return run
+    except NotLookedFor:
+        search.left.append(prop.id)
         return run

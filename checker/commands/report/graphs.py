@@ -34,18 +34,23 @@ CHARTS = 4
 NODES, LINES = 24, 30
 """Nodes, and lines between them, that are taken in at a glance."""
 
+LEFT_OUT = "left out by --at-once"
 Undrawn = tuple[str, str]
 """A system without a graph, and why."""
 
 
 def state_graphs(
-    found: Sequence[CheckedProperty], systems: Sequence[System], options: str, kept: PartStore = UNKEPT
+    found: Sequence[CheckedProperty],
+    systems: Sequence[System],
+    options: str,
+    kept: PartStore = UNKEPT,
+    kept_only: bool = False,
 ) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
     Systems with the real runs come before those with more or fewer, and marked graphs before others.  Also
     why some charts have no graph; ``options`` is what a command needs besides.  One that is ``kept`` is not
-    made again.
+    made again, and with ``kept_only`` no other is made.
     """
     wanted = sorted((s for s in systems if s.charts), key=lambda s: s.over or s.under)
     graphs: dict[str, StateGraphView] = {}
@@ -55,7 +60,8 @@ def state_graphs(
         for system in wanted:
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:
-                one = _kept_graph(system, asked, found, options, kept, partial(watch.say, system.name))
+                say = None if kept_only else partial(watch.say, system.name)
+                one = _kept_graph(system, asked, found, options, kept, say)
                 if isinstance(one, StateGraphView):
                     graphs[system.name] = one
                     drawn.add(_charts(system))
@@ -77,9 +83,12 @@ def _kept_graph(
     found: Sequence[CheckedProperty],
     options: str,
     kept: PartStore,
-    progress: Progress,
+    progress: Progress | None,
 ) -> StateGraphView | str:
-    """The graph, or why there is none: as it is kept, or made and kept unless time has ended it."""
+    """The graph, or why there is none: as it is kept, or made and kept unless time has ended it.
+
+    Without ``progress`` none is made.
+    """
     runs = [(c.result.property, c.result.system, run_in(run)) for c, run in _broken(found, system)]
     name = kept.name("graph", system, [*asked], runs, LIMITS, options)
     before = kept.read(name)
@@ -88,6 +97,8 @@ def _kept_graph(
     if before is not None:
         with suppress(*MEANINGLESS):
             return kept_view(before)
+    if progress is None:
+        return LEFT_OUT
     late, one = _state_graph(system, asked, found, options, progress)
     if not late:
         kept.write(name, one if isinstance(one, str) else asdict(one))

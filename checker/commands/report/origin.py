@@ -38,6 +38,8 @@ def origin(model: Model, variant: Variant, code: Exit, options: PageOptions) -> 
         commit_of(model.path) if model.path else commit_of_rover(),
         options.reviewer,
         model.options,
+        options.at_once,
+        options.without_cause,
     )
 
 

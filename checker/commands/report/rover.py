@@ -8,6 +8,7 @@ from typing import Any
 
 from rovercheck.checker.cache.entries import MEANINGLESS
 from rovercheck.checker.commands.report.data import Extras
+from rovercheck.checker.commands.report.graphs import LEFT_OUT
 from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
 from rovercheck.checker.commands.shared.dependencies import of_verdict
 from rovercheck.checker.commands.shared.output import err
@@ -34,9 +35,16 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.repairs import Repair, repairs
 
 
-def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool, kept: PartStore) -> Extras:
-    """All of it; repairs only if wanted and for the charts as specified."""
-    mended = kept_remedies(found, kept) if with_repairs and not variant.name else ()
+def extras(
+    variant: Variant,
+    found: Sequence[CheckedProperty],
+    with_repairs: bool,
+    kept: PartStore,
+    kept_only: bool = False,
+) -> Extras:
+    """All of it; repairs only if wanted and for the charts as specified, and with ``kept_only`` those that
+    are kept."""
+    mended = kept_remedies(found, kept, kept_only) if with_repairs and not variant.name else ()
     taken = tuple(
         interpretation(one, variant.choices.get(one.id, one.default)) for one in ambiguities().values()
     )
@@ -54,12 +62,20 @@ def _meaning(one: Ambiguity, choice: str) -> str:
     return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
 
 
-def kept_remedies(found: Sequence[CheckedProperty], kept: PartStore) -> tuple[Remedy, ...]:
-    """The repairs of what was found violated: as they are kept while no file has changed, or decided."""
+def kept_remedies(
+    found: Sequence[CheckedProperty], kept: PartStore, kept_only: bool = False
+) -> tuple[Remedy, ...]:
+    """The repairs of what was found violated: as they are kept while no file has changed, or decided.
+
+    With ``kept_only`` those that are not kept are shown undecided.
+    """
     violated = sorted(c.result.property.id for c in found if c.verdict.word == "violated")
     name = kept.name_now("remedies", violated)
     with suppress(*MEANINGLESS):
         return tuple(_remedy_of(row) for row in kept.read(name))
+    if kept_only:
+        fixing = (one for one in repairs().values() if not {*one.fixes}.isdisjoint(violated))
+        return tuple(_undecided(one, {*violated}, LEFT_OUT) for one in fixing)
     made = tuple(remedies(found))
     if all(word != "unknown" for one in made for _, word, _ in one.proofs):
         kept.write(name, [asdict(one) for one in made])
@@ -87,8 +103,11 @@ def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
 def _unfit(repair: Repair, violated: set[str], why: str) -> Remedy:
     """A repair that the charts as they are now have no place for; the message says which."""
     err.print(f"The repair {repair.name} does not fit the charts, and is not decided. {why}")
-    said = f"the repair does not fit the charts as they are. {why}"
-    rows = tuple((id, "not decided", said) for id in repair.fixes if id in violated)
+    return _undecided(repair, violated, f"the repair does not fit the charts as they are. {why}")
+
+
+def _undecided(repair: Repair, violated: set[str], why: str) -> Remedy:
+    rows = tuple((id, "not decided", why) for id in repair.fixes if id in violated)
     return Remedy(repair.name, repair.text, (), rows, tuple(repair.gives_up.items()), _again(repair))
 
 

@@ -60,7 +60,9 @@ def report(
             found.append(CheckedProperty(result, variant.expected(result.property.id), variant.name))
         if options.explain is not False:
             seconds = None if options.explain else SECONDS
-            found = with_reasons(found, model.systems, CauseSearch(search.store, seconds))
+            causes = CauseSearch(search.store, seconds, kept_only=options.at_once)
+            found = with_reasons(found, model.systems, causes)
+            options = replace(options, without_cause=len(causes.left))
         cases_known: Mapping[str, PremiseCase] = {}
         if options.premises is not False:
             asked = patient(search, LONG if options.premises else PATIENCE)
@@ -90,11 +92,13 @@ def page(
     Parts of it that are ``kept`` are not made again.
     """
     own = (
-        extras(variant, found, not options.no_repairs, kept)
+        extras(variant, found, not options.no_repairs, kept, options.at_once)
         if model.path is None
         else Extras(depends=partial(of_verdict, variant=variant))
     )
-    graphs, undrawn = state_graphs(found, concerned(found, model), model.options, kept)
+    graphs, undrawn = state_graphs(
+        found, concerned(found, model), model.options, kept, kept_only=options.at_once
+    )
     own = replace(own, premises=cases_known or {}, graphs=graphs, undrawn=undrawn)
     return render(
         reviewed(model, found, origin(model, variant, worst(found), options), own, not options.some)

@@ -244,6 +244,10 @@ class ReviewOrigin:
     reviewer: str = ""
     options: str = ""
     """What a command needs to be about the same model."""
+    at_once: bool = False
+    """Causes, repairs and state graphs that nobody had looked for are left out."""
+    without_cause: int = 0
+    """Findings of which the cause is left out."""
 
 
 @dataclass(frozen=True)
