@@ -163,6 +163,12 @@ def meaning(trace: Trace) -> str:
 
 def determined_by(trace: Trace) -> str:
     """Which inputs determine the end of the run, and what that means; empty where nobody examined that."""
-    told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
-    spans = [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]
+    spans = determining(trace)
     return f"Determined by {'; '.join(spans)}. {meaning(trace)}" if spans else meaning(trace)
+
+
+def determining(trace: Trace) -> list[str]:
+    """The inputs that determine the end of the run, those of the same ticks together: ``tick 3: rx, d1 >= 71
+    cm``."""
+    told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
+    return [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]

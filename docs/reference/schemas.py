@@ -22,6 +22,7 @@ from rovercheck.checker.commands.generate_tests.document import GenerateTestsDoc
 from rovercheck.checker.commands.list.document import ListDocument
 from rovercheck.checker.commands.mutate.document import MutateDocument
 from rovercheck.checker.commands.requirements.document import RequirementsDocument
+from rovercheck.checker.commands.robustness.document import RobustnessDocument
 from rovercheck.checker.render.graph_json import GraphDocument
 from rovercheck.checker.render.trace_json import TraceDocument
 
@@ -38,6 +39,7 @@ DOCUMENTS: Mapping[str, Any] = {
     "list-1": ListDocument,
     "mutate-1": MutateDocument,
     "requirements-1": RequirementsDocument,
+    "robustness-1": RobustnessDocument,
     "testgen-1": GenerateTestsDocument,
     "trace-3": TraceDocument,
 }

@@ -1,10 +1,12 @@
 """Odd inputs: every planted fault is found with a run that shows it, and none in firmware without one."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from jsonschema import Draft202012Validator
 
 from rovercheck.checker.adapters.implementation import ImplementationError, Value
 from rovercheck.checker.cli import run
@@ -17,6 +19,7 @@ from rovercheck.checker.robustness.search import RobustnessSearch
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW
 from rovercheck.spec_model.lang.errors import ModelError
+from tests.schemas import published
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -188,6 +191,19 @@ def test_a_finding_is_a_test_that_fails_until_it_is_repaired(tmp_path, capsys):
     assert passed() == 1
     written(folder)
     assert passed() == 0
+
+
+@pytest.mark.usefixtures("cc")
+def test_what_is_found_as_json(tmp_path, capsys):
+    old, new, *_ = PLANTED["no number passed on"]
+    address, place = written(tmp_path, old, new), tmp_path / "t"
+    command = ["robustness", "--system", "board1", "--impl", address, "--runs", "0", "-o", str(place)]
+    assert run([*command, "--json"]) is Exit.FAILED
+    told = json.loads(capsys.readouterr().out)
+    Draft202012Validator(published("robustness-1")).validate(told)
+    [one] = [row for row in told["findings"] if row["kind"] == "no number"]
+    assert one["where"] == "v_ref" and one["inputs"][-1]["inputs"]["y_norm"] == "nan"
+    assert Path(one["test"]).parent == place and told["exit"] == 1 and "v_ref" in told["judged"]
 
 
 @pytest.mark.usefixtures("cc")

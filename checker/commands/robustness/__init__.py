@@ -20,6 +20,7 @@ class RobustnessOptions:
     seed: int = 1
     no_sanitizers: bool = False
     output: Path | None = None
+    as_json: bool = False
     model: Path | None = None
 
 
@@ -43,6 +44,7 @@ class RobustnessOptions:
     metavar="DIR",
     help="Write a test for each finding there.",
 )
+@click.option("--json", "as_json", is_flag=True, help="What was found as JSON.")
 @modelling
 @quietly
 @gathered(RobustnessOptions, "options")

@@ -6,17 +6,19 @@ from shlex import quote
 
 from rovercheck.checker.adapters.implementation import ImplementationError
 from rovercheck.checker.commands.robustness import RobustnessOptions
+from rovercheck.checker.commands.robustness.document import document, shown
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, out, text_width, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
 from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.compare.variants import of_model
+from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.robustness.odd_inputs import odd_runs, told
 from rovercheck.checker.robustness.replay import HostileImplementation, file_of, opened, replay_test
 from rovercheck.checker.robustness.rules import RobustnessRules, read_rules
 from rovercheck.checker.robustness.search import RobustnessFinding, RobustnessResult, RobustnessSearch
-from rovercheck.spec_model.abstraction import Board, Value, boards
+from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.errors import did_you_mean
 
 MOST_STEPS = 12
@@ -31,10 +33,12 @@ def robustness(options: RobustnessOptions) -> Exit:
     """
     board = _board(options)
     rules = read_rules(options.rules, board) if options.rules is not None else RobustnessRules()
-    out.print(f"{board.name}: {options.impl}", markup=False)
+    tell = _silent if options.as_json else _told
+    tell(f"{board.name}: {options.impl}")
     try:
         with opened(options.impl, board, rules, sanitize=not options.no_sanitizers) as hostile:
-            out.print(_sanitized(hostile, options), markup=False)
+            watched = _sanitized(hostile, options)
+            tell(f"  {watched}")
             search = RobustnessSearch(board, hostile.implementation, rules, hostile.logs)
             with ProgressLine() as line:
                 result = search.run(
@@ -45,8 +49,23 @@ def robustness(options: RobustnessOptions) -> Exit:
         raise UsageError(str(error)) from error
     files = _written(result, options, rules)
     for number, one in enumerate(result.findings, 1):
-        out.print("\n".join(["", *_finding(number, one, result), *_file(files.get(number))]), markup=False)
-    out.print("\n" + _summary(result), markup=False)
+        tell("\n".join(["", *_finding(number, one, result), *_file(files.get(number))]))
+    tell("\n" + _summary(result))
+    code = _code(result)
+    if options.as_json:
+        print(json_text(document(result, options.impl, watched, files, code), ascii=True))
+    return code
+
+
+def _told(text: str) -> None:
+    out.print(text, markup=False)
+
+
+def _silent(_: str) -> None:
+    """JSON says it."""
+
+
+def _code(result: RobustnessResult) -> Exit:
     if result.findings:
         return Exit.FAILED
     if result.interrupted:
@@ -69,11 +88,11 @@ def _board(options: RobustnessOptions) -> Board:
 
 def _sanitized(hostile: HostileImplementation, options: RobustnessOptions) -> str:
     if hostile.sanitized.flags:
-        return "  compiled with AddressSanitizer and UndefinedBehaviorSanitizer"
+        return "compiled with AddressSanitizer and UndefinedBehaviorSanitizer"
     if not options.impl.startswith("c:"):
-        return "  no C, so that no sanitizers watch it"
+        return "no C, so that no sanitizers watch it"
     missing = hostile.sanitized.missing
-    return f"  without sanitizers ({missing}): overflows and accesses out of bounds may go unseen"
+    return f"without sanitizers ({missing}): overflows and accesses out of bounds may go unseen"
 
 
 def _written(result: RobustnessResult, options: RobustnessOptions, rules: RobustnessRules) -> dict[int, Path]:
@@ -99,16 +118,12 @@ def _finding(number: int, one: RobustnessFinding, result: RobustnessResult) -> I
     yield f"   in {counted(runs, 'run', 'runs')}, first: {one.origin}"
     steps = list(told(result.board, one.inputs))
     for step, changed in steps[:MOST_STEPS]:
-        values = ", ".join(f"{name} = {_shown(result.board, name, value)}" for name, value in changed.items())
+        values = ", ".join(f"{name} = {shown(result.board, name, value)}" for name, value in changed.items())
         yield filled(f"     step {step:>3}  {values}", text_width(), "", "               ")
     if len(steps) > MOST_STEPS:
         yield f"     ... and {len(steps) - MOST_STEPS} more steps, in the test"
     if not steps:
         yield "     with every input at rest"
-
-
-def _shown(board: Board, name: str, value: Value) -> str:
-    return next(s for s in board.inputs if s.name == name).show(value)
 
 
 def _file(file: Path | None) -> list[str]:

@@ -15,6 +15,7 @@ from markupsafe import Markup
 
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.page import Part, data, page, templates
+from rovercheck.checker.render.reasons import determining
 from rovercheck.checker.render.review import traces
 from rovercheck.checker.render.review.cover import (
     decision_state,
@@ -80,6 +81,7 @@ def render(review: Review) -> str:
         heading=heading,
         ending=ending,
         false_parts=false_parts,
+        determining=determining,
         gallery=GALLERY,
         runs=runs,
         signs=SIGNS,
