@@ -15,7 +15,7 @@ from rovercheck.checker import commands
 from rovercheck.checker.commands.shared.aliases import current
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.completion import completed
-from rovercheck.checker.commands.shared.failure import alarm, error_message, no_room
+from rovercheck.checker.commands.shared.failure import alarm, code_of, error_message, no_room
 from rovercheck.checker.commands.shared.help_examples import helped
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.process.garbage import collect_seldom
@@ -131,7 +131,7 @@ def _run(arguments: list[str]) -> Exit:
     except MemoryError as error:
         return _end(error_message(error), Exit.INCONCLUSIVE)
     except Exception as error:
-        return _end(_internal(error, arguments), Exit.INTERNAL)
+        return _end(_internal(error, arguments), code_of(error))
 
 
 def _internal(error: Exception, arguments: list[str]) -> str:

@@ -38,6 +38,7 @@ CERTIFICATES = Extra(
 PLOT = Extra("plot", "matplotlib", "matplotlib", "plots of simulate")
 PARQUET = Extra("parquet", "pyarrow", "pyarrow", "Parquet logs in check-log")
 FIRMWARE = Extra("firmware", "tree-sitter-c", "tree_sitter_c", "map init, which reads sources in C")
+CLUSTER = Extra("cluster", "distributed", "distributed", "--scheduler, which searches on other machines")
 
-EXTRAS: Mapping[str, Extra] = {one.name: one for one in (CERTIFICATES, PLOT, PARQUET, FIRMWARE)}
+EXTRAS: Mapping[str, Extra] = {one.name: one for one in (CERTIFICATES, PLOT, PARQUET, FIRMWARE, CLUSTER)}
 """All of them by name; ``rovercheck[all]`` brings them together (``pyproject.toml``)."""

@@ -12,7 +12,7 @@ from rovercheck.checker.mutate.plan import PlannedMutant
 from rovercheck.checker.process.faults import Fault, described, is_fault, report
 from rovercheck.checker.process.faults import listening as attending
 from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import GrantedTime, Order, Pool, PoolEvent
+from rovercheck.checker.process.pool import GrantedTime, Jobs, Order, Pool, PoolEvent
 from rovercheck.checker.verify.searches import SLACK, cores
 
 
@@ -35,7 +35,7 @@ class MutantJudged:
 def fates(
     planned: Sequence[PlannedMutant],
     limits: Limits,
-    jobs: int | None = None,
+    jobs: Jobs | None = None,
     before: Mapping[str, MutantFate] | None = None,
     search: bool = True,
 ) -> Generator[MutantProgress | MutantJudged, None, None]:

@@ -46,13 +46,26 @@ class PoolEvent:
 
 
 @dataclass(frozen=True)
+class Cluster:
+    """Workers elsewhere (``checker.process.cluster``): the address of their scheduler, and what gives the key
+    of the code that decides, which must be the same there."""
+
+    address: str
+    code: Callable[[], str]
+
+
+Jobs = int | Cluster
+"""Children that work at a time: so many here, or those of a cluster."""
+
+
+@dataclass(frozen=True)
 class Pool:
     """``size`` children, each made by ``make(*args)`` (see ``isolate.Child``), with ``memory`` bytes each.
 
     A child that was granted some seconds is killed after ``hard`` times as many and ``grace`` more.
     """
 
-    size: int
+    size: Jobs
     make: Callable[..., Callable[..., None]]
     args: tuple[object, ...] = ()
     memory: int | None = None
@@ -65,6 +78,11 @@ class Pool:
         ``again`` is asked what a new child is to do when one has crashed over an order of that number.
         Closing the generator, or an exception in it, kills the children.
         """
+        if isinstance(self.size, Cluster):
+            from rovercheck.checker.process.cluster import carried_out
+
+            yield from carried_out(self, orders, again or _never)
+            return
         at_work = _AtWork(self, dict(enumerate(orders)), again or _never)
         try:
             yield from at_work.events()
@@ -117,6 +135,7 @@ class _AtWork:
 
     def events(self) -> Iterator[PoolEvent]:
         """What is heard, until every order is done."""
+        assert isinstance(self._pool.size, int)
         for _ in range(min(self._pool.size, len(self._left))):
             self._hire()
         while self._seats:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from random import Random
 
 from rovercheck.checker.engines import Limits
+from rovercheck.checker.process.pool import Jobs
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.explore import RandomMachine, explored, first_reached, shortened
@@ -36,7 +37,7 @@ class GenerationEffort:
 
     seconds: float = 20.0
     ticks: int = 40_000
-    jobs: int | None = None
+    jobs: Jobs | None = None
     seed: int = 0
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from rovercheck.checker.engines import Limits
+from rovercheck.checker.process.pool import Jobs
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
@@ -83,7 +84,7 @@ class SearchProgress:
 
 
 def searched(
-    board: Board, system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
+    board: Board, system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: Jobs | None = None
 ) -> Iterator[CoverAnswer | SearchProgress]:
     """Run the engines for goals on a system whose runs the board has: those of its model."""
     for goal, verdict in _verdicts(system, goals, limits, jobs):
@@ -100,7 +101,7 @@ def searched(
 
 
 def refuted(
-    board: Board, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
+    board: Board, goals: Sequence[CoverGoal], limits: Limits, jobs: Jobs | None = None
 ) -> Iterator[Uncoverable | OpenGoal | SearchProgress]:
     """The goals that no run reaches even if the part they are in has free inputs, all others left out.
 
@@ -125,7 +126,7 @@ def refuted(
 
 
 def _verdicts(
-    system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None
+    system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: Jobs | None
 ) -> Iterator[tuple[str, Verdict | str]]:
     """What the engines say of each goal, by id, and what they are doing."""
     looked = _looked(system, goals)

@@ -15,6 +15,7 @@ from rovercheck.checker.commands.shared.options import (
     SearchOptions,
     SelectionOptions,
     VariantOptions,
+    elsewhere,
     gathered,
     modelling,
     searching,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from rovercheck.checker.commands.check.unchanged import ToldStore
     from rovercheck.checker.commands.shared.told import ToldVerdict
     from rovercheck.checker.model.variant import Variant
+    from rovercheck.checker.process.pool import Cluster
     from rovercheck.checker.verify.searches import SearchSettings
     from rovercheck.properties.forms import Property
 
@@ -48,6 +50,7 @@ class CheckOptions:
     quiet: bool
     verbose: bool
     jobs: int | None
+    scheduler: "Cluster | None"
     memory: float
     all_engines: bool
     certify: bool
@@ -69,6 +72,11 @@ class CheckOptions:
         """Raises ``UsageError`` for options that exclude each other."""
         if self.watch and (self.as_json or self.writes or self.certificates):
             raise UsageError("--watch tells what changes and writes no file; leave the other options out.")
+        if self.scheduler is not None and self.certificates:
+            raise UsageError(
+                "--certificates are written where a proof is found, which with --scheduler is another "
+                "machine; write one of them."
+            )
         if self.no_premises and (self.strict or self.record_premises):
             other = "--strict" if self.strict else "--record-premises"
             raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
@@ -108,6 +116,7 @@ class CheckOptions:
     metavar="N",
     help="Searches at a time; by default one per processor.",
 )
+@elsewhere
 @click.option(
     "--memory",
     type=GIB,
@@ -326,7 +335,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     return SearchSettings(
         engine,
         limits,
-        options.jobs,
+        options.scheduler or options.jobs,
         invariants_of(variant.model),
         certifying,
         None if options.record_invariants else search.store(engine, options.recheck),

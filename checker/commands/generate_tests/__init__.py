@@ -2,12 +2,16 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import SECONDS, gathered, modelling, quietly
+from rovercheck.checker.commands.shared.options import SECONDS, elsewhere, gathered, modelling, quietly
 from rovercheck.checker.engines import LOADED
+
+if TYPE_CHECKING:
+    from rovercheck.checker.process.pool import Cluster
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,7 @@ class GenerationOptions:
     ticks: int
     seed: int
     jobs: int | None
+    scheduler: "Cluster | None"
 
 
 @click.command(short_help="Write tests that cover the charts, with expected outputs.")
@@ -72,6 +77,7 @@ class GenerationOptions:
 @click.option(
     "--jobs", type=click.IntRange(min=1), metavar="N", help="Searches at a time; one per processor."
 )
+@elsewhere
 @click.option("--json", "as_json", is_flag=True, help="Every goal and what is known of it, as JSON.")
 @click.option(
     "--output",
@@ -107,7 +113,7 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path, mode
             options.names,
             wanted,
             options.format,
-            GenerationEffort(options.timeout, options.ticks, options.jobs, options.seed),
+            GenerationEffort(options.timeout, options.ticks, options.scheduler or options.jobs, options.seed),
             options.kept,
             load(model) if model else None,
             options.keep,

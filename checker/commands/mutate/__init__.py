@@ -2,12 +2,16 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.options import GIB, SECONDS, gathered, modelling, quietly
+from rovercheck.checker.commands.shared.options import GIB, SECONDS, elsewhere, gathered, modelling, quietly
 from rovercheck.checker.engines import LOADED, Limits
+
+if TYPE_CHECKING:
+    from rovercheck.checker.process.pool import Cluster
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,7 @@ class MutateOptions:
     part: tuple[str, ...]
     alone: bool
     jobs: int | None
+    scheduler: "Cluster | None"
     sample: int | None
     seed: int
     record_mutants: bool
@@ -48,6 +53,7 @@ class MutateOptions:
 @click.option(
     "--jobs", type=click.IntRange(min=1), metavar="N", help="Mutants at a time; by default one per processor."
 )
+@elsewhere
 @click.option("--sample", type=click.IntRange(min=1), metavar="N", help="Only so many, drawn at random.")
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Which ones are drawn.")
 @click.option(
@@ -89,5 +95,10 @@ def mutate(
         if record_kills:
             from rovercheck.checker.commands.mutate.kills import record_kills as recorded
 
-            return recorded(pick_variant((), None, (), model).model, limits, options.jobs, options.about)
+            return recorded(
+                pick_variant((), None, (), model).model,
+                limits,
+                options.scheduler or options.jobs,
+                options.about,
+            )
         return run(pick_variant((), None, (), model).model, options, limits, as_json)

@@ -13,7 +13,7 @@ from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
 from rovercheck.checker.mutate.kills import Kill, kills, still
 from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import Order, Pool
+from rovercheck.checker.process.pool import Jobs, Order, Pool
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.verify.searches import SLACK, cores
 from rovercheck.properties.forms import Property
@@ -23,7 +23,7 @@ SHOWN = 40
 """Properties that are named, of those for which no fault was found."""
 
 
-def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collection[str] = ()) -> Exit:
+def record_kills(model: Model, limits: Limits, jobs: Jobs | None, about: Collection[str] = ()) -> Exit:
     """Look for a fault that each proved demand notices, and keep it with the run that shows it.
 
     Only demands about the systems ``about``, if these are named.  What is recorded is gone through again;
@@ -74,7 +74,7 @@ def _found(
     known: Mapping[str, KeptRun],
     asked: Mapping[str, list[Property]],
     limits: Limits,
-    jobs: int | None,
+    jobs: Jobs | None,
 ) -> Generator[tuple[str, dict[str, Kill] | None], None, None]:
     """The kills system by system, as they are found; None of one that was not looked at whole."""
     orders, names = [], list(asked)

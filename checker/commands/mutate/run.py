@@ -87,7 +87,9 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
     found.chosen = len(todo)
     code = Exit.INTERRUPTED
     try:
-        search = SearchSettings(limits=limits, jobs=wanted.jobs, invariants=invariants_of(model))
+        search = SearchSettings(
+            limits=limits, jobs=wanted.scheduler or wanted.jobs, invariants=invariants_of(model)
+        )
         judge(model, properties, todo, search, wanted.alone, found)
         code = found.code
     except KeyboardInterrupt:

@@ -19,11 +19,15 @@ def error_message(error: Exception) -> str:
             return f"The operating system refuses: {error}. {ROOM}"
         case MemoryError():
             return MEMORY
+    from rovercheck.checker.process.cluster import ClusterError
     from rovercheck.checker.verify.portfolio import Disagreement
     from rovercheck.checker.verify.runs.replay import ReplayError
+    from rovercheck.checker.verify.searches import StrangeRun
 
     match error:
-        case ReplayError():
+        case ClusterError():
+            return str(error)
+        case ReplayError() | StrangeRun():
             return f"Internal error: {error}"
         case Disagreement():
             return f"Internal error: {error} At least one engine is wrong."
@@ -45,8 +49,9 @@ def code_of(error: BaseException) -> Exit:
         case OSError() | MemoryError():
             return Exit.INCONCLUSIVE
     from rovercheck.checker.certify.file import Unwritable
+    from rovercheck.checker.process.cluster import ClusterError
 
-    return Exit.USAGE if isinstance(error, Unwritable) else Exit.INTERNAL
+    return Exit.USAGE if isinstance(error, Unwritable | ClusterError) else Exit.INTERNAL
 
 
 def no_room(error: BaseException) -> bool:

@@ -16,6 +16,7 @@ from rovercheck.checker.engines import AUTO, Engine, Limits, Timers
 
 if TYPE_CHECKING:
     from rovercheck.checker.model.variant import Variant
+    from rovercheck.checker.process.pool import Cluster
     from rovercheck.checker.store.verdicts import VerdictStore
     from rovercheck.properties.forms import Property
 
@@ -103,6 +104,21 @@ class SearchOptions:
 
         return None if self.no_store else store(engine, self.limits(), recheck)
 
+
+def _cluster(_: click.Context, __: click.Parameter, address: str | None) -> "Cluster | None":
+    from rovercheck.checker.process.pool import Cluster
+    from rovercheck.checker.store.versions import deciding
+
+    return None if address is None else Cluster(address, deciding)
+
+
+elsewhere = click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    callback=_cluster,
+    help="Search on the workers of this scheduler of dask, in place of --jobs here (docs/cluster.md).",
+)
+"""The option for searches on other machines."""
 
 Verb = Callable[..., Exit]
 

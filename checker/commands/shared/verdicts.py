@@ -34,7 +34,9 @@ def results(
     ``KeyboardInterrupt`` is raised.
     """
     known = known_times() if search.store is not None else {}
-    watching = SearchWatch(err, len(properties), quiet, known, search.jobs or cores())
+    watching = SearchWatch(
+        err, len(properties), quiet, known, search.jobs if isinstance(search.jobs, int) else cores()
+    )
     with closing(events(properties, systems, search)) as found, watching as watch:
         for one in found:
             match one:

@@ -1,0 +1,80 @@
+"""``--scheduler``: what is decided elsewhere is as decided here; a run that is sent is replayed here."""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.extras import CLUSTER
+from rovercheck.checker.process import cluster as elsewhere
+from rovercheck.checker.process.pool import Again, Order, Pool, PoolEvent
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.verify.search_worker import PropertyDecided
+from tests.process.cluster import LocalCluster, local_cluster
+
+pytestmark = pytest.mark.skipif(not CLUSTER.installed, reason=CLUSTER.needed("a cluster"))
+IDS = ["PB1-15", "PB1-11", "PB1-07a", "PB2-32f"]
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LocalCluster]:
+    with local_cluster(tmp_path_factory.mktemp("cluster"), 2) as made:
+        yield made
+
+
+def test_the_same_verdicts_as_here(cluster: LocalCluster, capsys: pytest.CaptureFixture[str]) -> None:
+    told = []
+    for options in ([], ["--scheduler", cluster.address]):
+        assert run(["check", *IDS, "--json", *options]) == Exit.AS_EXPECTED
+        told.append(json.loads(capsys.readouterr().out)["results"])
+    assert {one["id"] for one in told[0]} == {*IDS}
+    assert sorted(map(json.dumps, told[0])) == sorted(map(json.dumps, told[1]))
+
+
+def test_covering_tests_and_mutants_too(
+    cluster: LocalCluster, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = Path(__file__).parents[2] / "examples" / "models" / "oven"
+    for verb in (
+        ["mutate", "--model", str(model), "--sample", "4"],
+        ["generate-tests", "--model", str(model)],
+    ):
+        told = []
+        for number, options in enumerate(([], ["--scheduler", cluster.address])):
+            more = ["-o", str(tmp_path / f"t{number}")] if verb[0] == "generate-tests" else []
+            code = run([*verb, *more, "--json", *options])
+            told.append((code, json.loads(capsys.readouterr().out.replace(f"t{number}", "t"))))
+        assert told[0] == told[1], verb
+
+
+def test_no_scheduler_and_what_excludes_it(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(elsewhere, "CONNECTED", 0.5)
+    assert run(["check", "PB1-15", "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
+    assert "There is no scheduler at tcp://127.0.0.1:9" in capsys.readouterr().err
+    proofs = ["--certificates", str(tmp_path)]
+    assert run(["check", "PB1-11", *proofs, "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
+    assert "--certificates are written where a proof is found" in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_run_that_shows_nothing_here_is_an_internal_error(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def forging(pool: Pool, orders: Sequence[Order], again: Again) -> Iterator[PoolEvent]:
+        for event in replace(pool, size=1).run(orders, again):
+            match event.message:
+                case PropertyDecided(verdict=Violated(Trace() as trace) as found) as said:
+                    none = replace(trace, ticks=trace.ticks[:1])
+                    event = replace(event, message=replace(said, verdict=replace(found, because=none)))
+            yield event
+
+    monkeypatch.setattr(elsewhere, "carried_out", forging)
+    assert run(["check", "PB1-15", "--scheduler", "tcp://anywhere:1"]) == Exit.INTERNAL
+    said = " ".join(capsys.readouterr().err.split())
+    assert "PB1-15: the run that a worker of the cluster found does not show here" in said
