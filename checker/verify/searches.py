@@ -13,7 +13,6 @@ from rovercheck.checker.engines import AUTO, Engine, Limits, Stage
 from rovercheck.checker.model.kept_invariants import Invariants
 from rovercheck.checker.process.faults import Fault, report
 from rovercheck.checker.process.pool import Cluster, Jobs, Order, Pool, PoolEvent
-from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, StoredRun, Unknown, Verdict
 from rovercheck.checker.system.formula_json import Tree
 from rovercheck.checker.verify.result import Result, limited
@@ -167,7 +166,9 @@ def searches(
                     if isinstance(one, MachineWarning):
                         warned.add(one.text)
                     if isinstance(one, Result) and isinstance(search.jobs, Cluster):
-                        one = _shown_here(one, systems)
+                        from rovercheck.checker.verify.stored import shown_here
+
+                        one = shown_here(one, systems)
                     if isinstance(one, Result):
                         keep(one, *asked[one.property.id].kept.get(one.property.id, ((), ())))
                         keep.flush()
@@ -177,32 +178,6 @@ def searches(
             if not isinstance(error, GeneratorExit | ModelError):  # nothing that is said of the model
                 yield from (one for gate in gates.values() for one in gate.held)
             raise
-
-
-class StrangeRun(Exception):
-    """A run that came from another machine does not show here what it is said to show."""
-
-
-def _shown_here(one: Result, systems: Mapping[str, System]) -> Result:
-    """The result with its run, if it rests on one, replayed here.  Raises ``StrangeRun`` if that fails."""
-    from rovercheck.checker.store.verdicts import StoredVerdict
-    from rovercheck.checker.verify.runs.known_runs import run_in
-    from rovercheck.checker.verify.stored import replayed
-
-    verdict = one.verdict
-    if isinstance(verdict, Unknown) or not isinstance(verdict.because, Trace | StoredRun):
-        return one
-    run = verdict.because
-    if run.trapped is not None:  # a run shows the way into a trap, and not that none leads out
-        return one
-    kept = run if isinstance(run, StoredRun) else StoredRun(run_in(run), 0, run.loop, shortest=run.shortest)
-    found = replayed(StoredVerdict(replace(verdict, because=kept), one.system), one.property, systems)
-    if found is None:
-        raise StrangeRun(
-            f"{one.property.id}: the run that a worker of the cluster found does not show here that it is "
-            f"{verdict.word}. Do not rely on the verdicts of that cluster."
-        )
-    return one if run is kept else replace(one, verdict=found)
 
 
 def _passed(

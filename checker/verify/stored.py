@@ -24,7 +24,7 @@ from rovercheck.checker.verify.liveness.loops import loop_query, repeated
 from rovercheck.checker.verify.portfolio.question import PortfolioQuestion
 from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.runs.known_runs import SHORT, reaching
+from rovercheck.checker.verify.runs.known_runs import SHORT, reaching, run_in
 from rovercheck.checker.verify.runs.replay import ReplayError, ends, followed, replay
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, Unbounded
@@ -242,3 +242,25 @@ def again(result: Result, systems: Mapping[str, System]) -> Result:
         return result
     verdict = replayed(StoredVerdict(result.verdict, result.system), result.property, systems)
     return result if verdict is None else replace(result, verdict=verdict)
+
+
+class StrangeRun(Exception):
+    """A run that came from another machine does not show here what it is said to show."""
+
+
+def shown_here(one: Result, systems: Mapping[str, System]) -> Result:
+    """A result from elsewhere, the run that it may rest on replayed.  Raises ``StrangeRun`` if that fails."""
+    verdict = one.verdict
+    if isinstance(verdict, Unknown) or not isinstance(verdict.because, Trace | StoredRun):
+        return one
+    run = verdict.because
+    if run.trapped is not None:  # a run shows the way into a trap, and not that none leads out
+        return one
+    kept = run if isinstance(run, StoredRun) else StoredRun(run_in(run), 0, run.loop, shortest=run.shortest)
+    found = replayed(StoredVerdict(replace(verdict, because=kept), one.system), one.property, systems)
+    if found is None:
+        raise StrangeRun(
+            f"{one.property.id}: the run that a worker of the cluster found does not show here that it is "
+            f"{verdict.word}. Do not rely on the verdicts of that cluster."
+        )
+    return one if run is kept else replace(one, verdict=found)

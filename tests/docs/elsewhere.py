@@ -23,6 +23,7 @@ COVERS = Instead("searches for minutes; tests/cli/test_generate_tests.py runs th
 MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
 REVISIONS = Instead("decides all of two revisions; tests/cli/test_diff.py compares those of small models")
+CLUSTERS = Instead("needs machines; tests/cli/test_scheduler.py starts a scheduler and workers on this one")
 SERVES = Instead("goes on until it is ended; tests/cli/test_serve.py and tests/browser look at it")
 PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
 
@@ -41,6 +42,12 @@ COMMANDS = {
     ".venv/bin/pip install ../rovercheck": INSTALLS,
     "pip install 'rovercheck[certificates]'": INSTALLS,
     "pip install '../rovercheck[all]'": INSTALLS,
+    "pip install 'rovercheck[cluster]'": INSTALLS,
+    "dask scheduler": CLUSTERS,
+    "dask worker tcp://192.168.0.7:8786 --nthreads 1": CLUSTERS,
+    "rovercheck check --scheduler tcp://192.168.0.7:8786": CLUSTERS,
+    "rovercheck mutate --system board1 --scheduler tcp://192.168.0.7:8786": CLUSTERS,
+    "rovercheck generate-tests --system board1 --scheduler tcp://192.168.0.7:8786": CLUSTERS,
     "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
     "make test-full": MAKES,

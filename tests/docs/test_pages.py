@@ -27,7 +27,7 @@ PAGES = [
 ]
 PROGRAM = re.compile(
     r"(?:\w+=\S+ )?(?:\.venv/bin/)?"
-    r"(rovercheck|pytest|make|cd|cc|python3?|pip|mkdir|printf|berkeley-abc|spin|nuXmv:)(?= |$)|\. "
+    r"(rovercheck|pytest|make|cd|cc|python3?|pip|mkdir|printf|dask|berkeley-abc|spin|nuXmv:)(?= |$)|\. "
 )
 OPEN = re.compile(
     r"\[[A-Z-]|\.\.\.|\w\|\w|(?<!\S)(?:ID|WHAT|CHART|SYSTEM|SCENARIO|SHELL|FILE|DIR|FOLDER)(?!\S)"

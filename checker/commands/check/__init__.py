@@ -23,7 +23,7 @@ from rovercheck.checker.commands.shared.options import (
     varying,
 )
 from rovercheck.checker.commands.shared.silence import say_more
-from rovercheck.checker.engines import ALL, AUTO, LOADED
+from rovercheck.checker.engines import LOADED
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.chain_status import Chains
@@ -73,10 +73,7 @@ class CheckOptions:
         if self.watch and (self.as_json or self.writes or self.certificates):
             raise UsageError("--watch tells what changes and writes no file; leave the other options out.")
         if self.scheduler is not None and self.certificates:
-            raise UsageError(
-                "--certificates are written where a proof is found, which with --scheduler is another "
-                "machine; write one of them."
-            )
+            raise UsageError("--certificates are written where a proof is found, with --scheduler elsewhere.")
         if self.no_premises and (self.strict or self.record_premises):
             other = "--strict" if self.strict else "--record-premises"
             raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
@@ -327,7 +324,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     from rovercheck.checker.verify.searches import SearchSettings
 
     limits = search.limits(options.memory)
-    engine = _engine_choice(pick_engine(search.engine), options.all_engines)
+    engine = pick_engine(search.engine, every=options.all_engines)
     if options.certificates:
         writable(options.certificates)
     wanted = options.certify or options.certificates
@@ -400,10 +397,3 @@ def _premises(
     return PremiseSearch(
         model, variant.systems(), read(file_of(model), only=asked), search, options.quiet, keep
     )
-
-
-def _engine_choice(engine: str, every: bool) -> str:
-    """The engines to ask.  Raises ``UsageError`` when one is named and every engine wanted."""
-    if every and engine not in (AUTO, ALL):
-        raise UsageError(f"--engine {engine} asks one engine and --all-engines every one; write one of them.")
-    return ALL if every else engine

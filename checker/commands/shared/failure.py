@@ -22,7 +22,7 @@ def error_message(error: Exception) -> str:
     from rovercheck.checker.process.cluster import ClusterError
     from rovercheck.checker.verify.portfolio import Disagreement
     from rovercheck.checker.verify.runs.replay import ReplayError
-    from rovercheck.checker.verify.searches import StrangeRun
+    from rovercheck.checker.verify.stored import StrangeRun
 
     match error:
         case ClusterError():

@@ -20,11 +20,18 @@ def pick(kind: str, name: str, known: Mapping[str, Thing]) -> Thing:
     return known[name]
 
 
-def pick_engine(name: str) -> str:
-    """The name of an engine, ``auto`` or ``all``."""
+def pick_engine(name: str, every: bool = False) -> str:
+    """The name of an engine, ``auto`` or ``all``.
+
+    Raises ``UsageError`` where there is none of that name, or one is named and ``every`` one wanted.
+    """
     if name not in (AUTO, ALL):
         pick("engine", name, {**engines(), AUTO: None, ALL: None})
-    return name
+        if every:
+            raise UsageError(
+                f"--engine {name} asks one engine and --all-engines every one; write one of them."
+            )
+    return ALL if every else name
 
 
 def pick_properties(
