@@ -5,7 +5,9 @@ it is made of.  A job whose worker is lost is carried out by another one; what c
 end.  Orders and messages travel as bytes, which neither scheduler nor worker reads.
 """
 
+import logging
 import pickle
+import warnings
 from collections.abc import Callable, Generator, Hashable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -71,6 +73,7 @@ def carried_out(pool: Pool, orders: Sequence[Order], again: Again) -> Generator[
     assert isinstance(cluster, Cluster)
     with connected(cluster) as client:
         from distributed import KilledWorker, as_completed
+        from distributed.client import FutureCancelledError
 
         here = pickled(replace(pool, size=1))
         jobs = [
@@ -96,6 +99,11 @@ def carried_out(pool: Pool, orders: Sequence[Order], again: Again) -> Generator[
                         submit(replace(job, tried=job.tried + 1))
                         continue
                     said = _failed(job, f"workers of the cluster are lost over it: {lost}")
+                except FutureCancelledError as lost:
+                    raise ClusterError(
+                        f"The scheduler at {cluster.address} is lost. What was decided is kept; run the "
+                        "command again when it is there."
+                    ) from lost
                 for one in said:
                     more = again(one.event.number) if one.crashed else None
                     message = None if one.message is None else pickle.loads(one.message)
@@ -124,7 +132,11 @@ def connected(cluster: Cluster) -> "Iterator[Client]":
     if not CLUSTER.installed:
         raise ClusterError(CLUSTER.needed("--scheduler"))
     from distributed import Client
+    from distributed.versions import VersionMismatchWarning
 
+    for name in ("distributed", "asyncio", "tornado"):  # what is wrong is told here, once
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    warnings.simplefilter("ignore", VersionMismatchWarning)  # what matters is refused below
     try:
         client: Any = Client(  # type: ignore[no-untyped-call]
             cluster.address, timeout=CONNECTED, set_as_default=False
