@@ -134,8 +134,9 @@ def connected(cluster: Cluster) -> "Iterator[Client]":
     from distributed import Client
     from distributed.versions import VersionMismatchWarning
 
-    for name in ("distributed", "asyncio", "tornado"):  # what is wrong is told here, once
-        logging.getLogger(name).setLevel(logging.CRITICAL)
+    for name in logging.root.manager.loggerDict:  # what is wrong is told here, once
+        if name.partition(".")[0] in ("distributed", "asyncio", "tornado"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     warnings.simplefilter("ignore", VersionMismatchWarning)  # what matters is refused below
     try:
         client: Any = Client(  # type: ignore[no-untyped-call]
