@@ -204,13 +204,15 @@ class TrialBench:
     ) -> Iterator[tuple[int, LogMismatch | None]]:
         """Every row of a run that a changed part gets wrong, and what differs; ``None``: not decided.
 
+        Where there are too many states to follow, no later row is decided either.
         ``unknown``: an input that may have had any value, and the rows in which.
         """
         run = self.runs[number]
         tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up)
         place = None if parameter is None else _place(cone, parameter[0])
         free = _place(cone, unknown[0])
-        for at, (options, logged) in enumerate(self._of(cone, number, self._prepared(cone))):
+        rows = self._of(cone, number, self._prepared(cone))
+        for at, (options, logged) in enumerate(rows):
             columns = [tuple(dict.fromkeys(c)) for c in zip(*options, strict=True)]
             if place is not None and parameter is not None:
                 columns[place] = (parameter[1],)
@@ -221,6 +223,7 @@ class TrialBench:
             if mismatch is not None or tracker.undecided is not None:
                 yield at, mismatch
             if tracker.undecided is not None:
+                yield from ((later, None) for later in range(at + 1, len(rows)))
                 return
 
 
