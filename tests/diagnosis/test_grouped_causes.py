@@ -2,7 +2,12 @@
 
 from dataclasses import replace
 
-from rovercheck.checker.conformance.recording import Recording
+import pytest
+
+from rovercheck.checker.conformance.mismatch import LogMismatch
+from rovercheck.checker.conformance.recording import Raw, Recording
+from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
+from rovercheck.checker.diagnosis import trial
 from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
 from rovercheck.checker.mutate.rewrites import ASSIGNED, COMPARED, rewrites
@@ -45,3 +50,30 @@ def test_members_are_exchanged_where_they_are_compared_or_where_they_are_assigne
     assert (COMPARED, "CMD_AVOID_LEFT", "CMD_AVOID_RIGHT") in pairs
     assert (ASSIGNED, "CMD_AVOID_LEFT", "CMD_AVOID_RIGHT") in pairs
     assert all(one != two for _, one, two in pairs)
+
+
+def test_what_is_not_decided_is_not_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Too many states from the fourth row on: what deviates later was taken to be right with the change."""
+
+    class Lost(Tracker):
+        rows = 0
+
+        def step(self, row: TrackedRow) -> LogMismatch | None:
+            self.rows += 1
+            if self.rows == 4:
+                self.undecided = UndecidedRow(row.tick, self.cone.name, "too many states")
+            return None
+
+    given = inputs("board1", [(20, {}), (20, {"temperature_degC": 70.0}), (300, {})])
+    run = recorded("board1", BOARD1.system, given, "hot")
+    [block] = run.blocks()
+    cold: list[Raw | None] = [0] * len(given)
+    cool = {**block.values, "temp_status": cold}
+    collector = EvidenceCollector(BOARD1)
+    collector.add(Recording("hot", run.signals, True, lambda: [replace(block, values=cool)]))
+    [part] = [one for one in collector.evidence().parts if one.name == "Monitor_temperature"]
+    bench = trial.TrialBench(part)
+    monkeypatch.setattr(trial, "Tracker", Lost)
+    assert [row for row, _ in bench.mismatches(part.cone, 0)] == list(range(3, len(given)))
+    judged = bench.trial(part.cone)
+    assert judged.cases and judged.explained == 0 and not judged.full
