@@ -104,6 +104,9 @@ def carried_out(pool: Pool, orders: Sequence[Order], again: Again) -> Generator[
                         f"The scheduler at {cluster.address} is lost. What was decided is kept; run the "
                         "command again when it is there."
                     ) from lost
+                told = {one.event.number for one in said if one.event.done}
+                if told != job.orders.keys():
+                    raise AssertionError(f"a job of the cluster told of the orders {told} of {[*job.orders]}")
                 for one in said:
                     more = again(one.event.number) if one.crashed else None
                     message = None if one.message is None else pickle.loads(one.message)
@@ -192,8 +195,9 @@ def carry_out(job: _Job) -> list[_Said]:
     pool: Pool = pickle.loads(job.pool)
     inside = replace(pool, make=_opened, args=(pool.make, pool.args))
     for event in inside.run([Order((job.orders[n],)) for n in numbers], again):
-        if worker.state.tasks[job.name].state != "executing":
-            return []  # nobody waits for it any more
+        at = worker.state.tasks.get(job.name)
+        if at is None or at.state == "cancelled":
+            raise ClusterError("The job was taken back.")  # which nobody hears
         if not isinstance(event.message, str):
             bare = replace(event, number=numbers[event.number], message=None)
             said.append(_Said(bare, event.message, event.done and event.number in crashed))

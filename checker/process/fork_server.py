@@ -166,8 +166,9 @@ def serve() -> None:
             for descriptor in given:
                 os.close(descriptor)
             ends[pid] = end
+            opened = os.pidfd_open(pid)  # where that cannot be, the server ends, and its parent does without
             with suppress(OSError):  # nobody waits for it any more
-                socket.send_fds(end, [_STATUS.pack(pid)], [opened := os.pidfd_open(pid)])
+                socket.send_fds(end, [_STATUS.pack(pid)], [opened])
             os.close(opened)
 
 

@@ -36,8 +36,7 @@ class PageOptions:
     ``premises`` and ``explain`` are None where a user wrote nothing: then each is looked for as long as
     ``check`` and ``trace`` do.  ``command`` is the command line itself; ``date``, ``document`` and
     ``reviewer`` are shown as given.  ``pdf`` is a file to print the page into.  ``some``: properties were
-    selected.  ``at_once``: causes, repairs and graphs that are not kept are left out, among them the causes
-    of so many findings (``without_cause``).
+    selected.  ``at_once``: causes, repairs and graphs that are not kept are left out.
     """
 
     certify: bool = False
@@ -53,7 +52,6 @@ class PageOptions:
     command: str = ""
     some: bool = False
     at_once: bool = False
-    without_cause: int = 0
 
 
 @click.command(short_help="Write one page with all verdicts, for reviewers.")

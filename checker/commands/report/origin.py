@@ -39,7 +39,6 @@ def origin(model: Model, variant: Variant, code: Exit, options: PageOptions) -> 
         options.reviewer,
         model.options,
         options.at_once,
-        options.without_cause,
     )
 
 

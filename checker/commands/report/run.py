@@ -58,16 +58,17 @@ def report(
     try:
         for result in results(properties, model.systems, search):
             found.append(CheckedProperty(result, variant.expected(result.property.id), variant.name))
+        without_cause = 0
         if options.explain is not False:
             seconds = None if options.explain else SECONDS
             causes = CauseSearch(search.store, seconds, kept_only=options.at_once)
             found = with_reasons(found, model.systems, causes)
-            options = replace(options, without_cause=len(causes.left))
+            without_cause = len(causes.left)
         cases_known: Mapping[str, PremiseCase] = {}
         if options.premises is not False:
             asked = patient(search, LONG if options.premises else PATIENCE)
             cases_known = cases(found, model.systems, asked, known)
-        html = page(model, variant, found, options, cases_known, PartStore(search.store))
+        html = page(model, variant, found, options, cases_known, PartStore(search.store), without_cause)
         made = KeptPage(html, [told(one, order_of(model)) for one in found], worst(found))
         if keeper is not None:
             keeper.write(made)
@@ -86,10 +87,11 @@ def page(
     options: PageOptions,
     cases_known: Mapping[str, PremiseCase] | None = None,
     kept: PartStore = UNKEPT,
+    without_cause: int = 0,
 ) -> str:
     """The page on verdicts that were found; ``cases_known``: which cases of proofs occur, by id.
 
-    Parts of it that are ``kept`` are not made again.
+    Parts of it that are ``kept`` are not made again; of so many findings nobody has looked for the cause.
     """
     own = (
         extras(variant, found, not options.no_repairs, kept, options.at_once)
@@ -100,6 +102,5 @@ def page(
         found, concerned(found, model), model.options, kept, kept_only=options.at_once
     )
     own = replace(own, premises=cases_known or {}, graphs=graphs, undrawn=undrawn)
-    return render(
-        reviewed(model, found, origin(model, variant, worst(found), options), own, not options.some)
-    )
+    made = replace(origin(model, variant, worst(found), options), without_cause=without_cause)
+    return render(reviewed(model, found, made, own, not options.some))

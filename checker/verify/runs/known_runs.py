@@ -67,7 +67,7 @@ def reached_by(run: Run, system: System, prop: Property, *, confirmed: bool = Tr
     """The run up to where the property is violated, or reached; None where that does not happen in it.
 
     A short one is gone through by the reference semantics, which is quicker than compiling the system.  A
-    long one is also ``confirmed`` by it, unless that was done when the run was recorded.
+    long one is gone through as compiled Python, and what that says is ``confirmed`` by the reference.
     """
     if len(run) > SHORT:
         way = reached if confirmed else reaching
