@@ -153,7 +153,7 @@ class KnownCases:
         return found
 
     def _gone_through(self, case: Property, kept: KeptRun) -> Run | None:
-        """What the run shows of the case: a long one as compiled Python says, where what is kept is believed."""
+        """What the run shows; of a long one compiled Python says it alone where what is kept is believed."""
         from rovercheck.checker.verify.runs.known_runs import reached_by
 
         confirmed = self.store is None or self.store.recheck or self.replayed
