@@ -13,8 +13,8 @@ from pathlib import Path
 
 from rovercheck.checker.cache import run_marks
 from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused, anew, has_listener, notify
-from rovercheck.checker.cache.places import UnsafePlace, carefully, chosen, usable
-from rovercheck.checker.cache.secret_file import secret
+from rovercheck.checker.cache.places import VARIABLE, UnsafePlace, carefully, chosen, usable
+from rovercheck.checker.cache.secret_file import SECRET, secret
 
 ENDING = ".o"
 MOST_BYTES = 256 << 20
@@ -80,8 +80,19 @@ def write(name: str, contents: bytes) -> None:
         _written(folder, len(whole))
     except UnsafePlace as unsafe:
         notify(CacheRefused(str(unsafe)))
-    except OSError:
+    except FileNotFoundError:  # switched off, or removed just now: the next one is written again
         pass
+    except OSError as error:
+        notify(CacheRefused(_unwritable(error)))
+
+
+def _unwritable(error: OSError) -> str:
+    """What to do about it; a disk that is full does not say for which file."""
+    what = error.filename or chosen()
+    return (
+        f"Cannot write {what}: {error.strerror or error}. Choose other places with {VARIABLE} and {SECRET}, "
+        f"or none: {VARIABLE}="
+    )
 
 
 def remove(name: str) -> None:

@@ -14,7 +14,7 @@ class CachedCodeUse:
 
 @dataclass(frozen=True)
 class CacheRefused:
-    """The cache is not used because it would not be safe; ``why`` says what was found and what to do."""
+    """Nothing is kept: that would not be safe, or cannot be; ``why`` says what was found and what to do."""
 
     why: str
 
@@ -27,18 +27,34 @@ class _Listening:
     listener: Listener | None = None
     anew: bool = False
     refused: set[str] = field(default_factory=set)
+    unheard: list[str] = field(default_factory=list)
 
 
 _now = _Listening()
 
 
 def notify(what: CachedCodeUse | CacheRefused) -> None:
-    """Say it to who listens; why the cache is refused is said once."""
-    if _now.listener is None or (isinstance(what, CacheRefused) and what.why in _now.refused):
-        return
+    """Say it to who listens; why the cache is refused is said once, and kept where nobody listens."""
     if isinstance(what, CacheRefused):
-        _now.refused.add(what.why)
-    _now.listener(what)
+        if not first(what):
+            return
+        if _now.listener is None:
+            _now.unheard.append(what.why)
+    if _now.listener is not None:
+        _now.listener(what)
+
+
+def first(what: CacheRefused) -> bool:
+    """Whether that is heard for the first time in this process."""
+    new = what.why not in _now.refused
+    _now.refused.add(what.why)
+    return new
+
+
+def unheard() -> list[str]:
+    """Why the cache was refused in this process when nobody listened; told once."""
+    told, _now.unheard = _now.unheard, []
+    return told
 
 
 def has_listener() -> bool:

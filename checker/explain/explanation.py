@@ -117,7 +117,7 @@ def _differing(run: Run, inputs: Sequence[Mapping[str, int]]) -> str:
 def unexplained(trace: Trace) -> str:
     """Why no inputs that force the end of a trace are looked for; empty if they are."""
     if trace.loop is not None:
-        return "the run has no end that inputs could force: it repeats for ever"
+        return "the run has no end that inputs could force: its last ticks repeat for ever"
     if trace.trapped is not None:
         return "what is out of reach after a run is no matter of its inputs alone"
     return ""

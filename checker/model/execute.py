@@ -7,15 +7,19 @@ from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
 from pathlib import Path
+from sysconfig import get_path
 from types import ModuleType
 
+import rovercheck
 from rovercheck.checker.model import shown
 from rovercheck.checker.model.neighbours import Neighbours
 from rovercheck.checker.model.statements import statement_faults
+from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
 
 _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterable")
+_PACKAGES = {Path(str(rovercheck.__file__)).parent, *map(Path, map(get_path, ("purelib", "platlib")))}
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 
@@ -71,7 +75,7 @@ def _run(neighbours: Neighbours, file: Path) -> ModuleType:
 
 def _located(error: BaseException, neighbours: Neighbours, file: Path) -> str:
     """The error with the last line of the user's that led to it."""
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if _within(f.filename, neighbours.folder)]
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if _of_the_user(f.filename, neighbours)]
     place, line = Place(str(file), 1), ""
     if frames and frames[-1].lineno:
         linecache.checkcache(frames[-1].filename)
@@ -82,15 +86,19 @@ def _located(error: BaseException, neighbours: Neighbours, file: Path) -> str:
     return f"{place}: {said}{f', in `{line}`' if line else ''}.{_hint(error, neighbours)}"
 
 
-def _within(filename: str, folder: Path) -> bool:
-    return Path(filename).is_relative_to(folder)
+def _of_the_user(filename: str, neighbours: Neighbours) -> bool:
+    """Whether a file is of the model, and not of a package in an environment that lies beside it."""
+    path = Path(filename)
+    return path.is_relative_to(neighbours.folder) and not any(map(path.is_relative_to, _PACKAGES))
 
 
 def _hint(error: BaseException, neighbours: Neighbours) -> str:
-    """For a formula taken for a list, an import of what has moved or of an installed package's name."""
+    """For a formula taken for a list, a state for an attribute, and names that are imported otherwise."""
     if isinstance(error, TypeError) and _FORMULA.fullmatch(str(error)):
         return " A formula is no list; join conditions with & and |, or with all_of(...) and any_of(...)."
     name = (getattr(error, "name", None) or "").partition(".")[0]
+    if isinstance(error, AttributeError) and isinstance(error.obj, Chart) and (name,) in error.obj.states:
+        return f' It is a state: the condition that it is active is .active("{name}").'
     if isinstance(error, NameError) and name in import_module("rovercheck.language").__all__:
         return f" It is a word of the language: write `from rovercheck import {name}`."
     if isinstance(error, ModuleNotFoundError) and name in ("spec_model", "properties"):

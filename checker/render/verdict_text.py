@@ -27,9 +27,9 @@ def in_short(result: Result) -> str:
         case Violated((Exhausted() | Inductive() | StoredInvariant()) as evidence_):
             return _joined(f"never: {evidence_.how} of {system}", result.limited_to)
         case Proved((Trace() | StoredRun()) as trace):
-            return f"reached in {ticks(trace)} of {system}"
+            return f"reached in {ticks(trace, f' of {system}')}"
         case Violated((Trace() | StoredRun()) as trace):
-            return f"{ticks(trace)} of {system}"
+            return ticks(trace, f" of {system}")
     raise AssertionError(verdict)
 
 
@@ -47,16 +47,16 @@ def evidence(result: Result) -> str:
         case Violated((Exhausted() | Inductive() | StoredInvariant()) as shown, engine):
             return _joined(f"{engine}: in none of {shown.how} of {result.system}", result.limited_to)
         case Proved((Trace() | StoredRun()) as trace, engine):
-            return f"{engine}: witness of {ticks(trace)} on {result.system}"
+            return f"{engine}: witness of {ticks(trace, f' on {result.system}')}"
         case Violated((Trace() | StoredRun()) as trace, engine):
-            return f"{engine}: counterexample of {ticks(trace)} on {result.system}"
+            return f"{engine}: counterexample of {ticks(trace, f' on {result.system}')}"
     raise AssertionError(verdict)
 
 
-def ticks(trace: Trace | StoredRun) -> str:
-    """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
+def ticks(trace: Trace | StoredRun, where: str) -> str:
+    """``155 ticks = 3.1 s of board1``, and how many of them repeat for ever."""
     seconds = trace.ms(len(trace)) / 1000
-    return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
+    return f"{counted_ticks(len(trace))} = {seconds:g} s{where}{repeating(trace)}"
 
 
 def recorded(entry: Expected) -> str:

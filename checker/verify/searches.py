@@ -6,7 +6,7 @@ from contextlib import closing
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused
+from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused, first, unheard
 from rovercheck.checker.cache.places import VARIABLE, chosen
 from rovercheck.checker.certify.outcome import Rejected, Undecided
 from rovercheck.checker.engines import AUTO, Engine, Limits, Stage
@@ -153,7 +153,6 @@ def searches(
     asked = {prop.id: one for one in returns for prop in one.task.properties}
     gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
     keep = _Keeping(search.store, systems, gates)
-    warned: set[str] = set()
     with closing(pool.run(orders, lambda number: returns[number].again())) as events:
         try:
             for event in events:
@@ -161,10 +160,6 @@ def searches(
                 if event.failure and not event.done:  # code that crashed may have said what is not so
                     keep.forget(back.task.properties, back.kept)
                 for one in _passed(gates, back.task.system.name, back.on_event(event)):
-                    if isinstance(one, MachineWarning) and one.text in warned:
-                        continue
-                    if isinstance(one, MachineWarning):
-                        warned.add(one.text)
                     if isinstance(one, Result) and isinstance(search.jobs, Cluster):
                         from rovercheck.checker.verify.stored import shown_here
 
@@ -174,6 +169,7 @@ def searches(
                         keep.flush()
                     yield one
                 keep.flush()
+            yield from map(_not_kept, unheard())
         except BaseException as error:
             if not isinstance(error, GeneratorExit | ModelError):  # nothing that is said of the model
                 yield from (one for gate in gates.values() for one in gate.held)
@@ -314,7 +310,8 @@ class _Returns:
             case CachedCodeUse():
                 self._taken = True
             case CacheRefused(why):
-                yield MachineWarning(f"Compiled searches are compiled every time: there is no cache. {why}")
+                if first(message):
+                    yield _not_kept(why)
             case PropertyCertified(id, outcome) if id in self._held:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
             case PropertyDecided(id, verdict) if id in self._reported:
@@ -356,6 +353,10 @@ class _Returns:
         yield from (replace(r, certificate=Undecided(reason)) for r in self._held.values())
         yield from (Result(p, Unknown(reason, 0, "none"), p.on) for p in self._left.values())
         yield SearchEnd(self.task)
+
+
+def _not_kept(why: str) -> MachineWarning:
+    return MachineWarning(f"Nothing is kept for the next time, neither verdicts nor compiled searches. {why}")
 
 
 def _crashed(task: Task, failure: str) -> str:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker import cache
+from rovercheck.checker.cache.listeners import unheard
 from rovercheck.checker.encode import native
 from rovercheck.checker.encode.counters import counters
 from rovercheck.checker.encode.native import NativeSearch, NativeTask, fingerprint, jit, layout, shifts
@@ -28,12 +29,13 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A cache and a secret of its own for each test."""
     made = tmp_path / "cache"
     monkeypatch.setenv(cache.SECRET, str(tmp_path / "state" / "secret"))
     monkeypatch.setenv(cache.VARIABLE, str(made))
-    return made
+    yield made
+    unheard()
 
 
 def system(top: int = 9, init: int = 0, low: int = 0) -> TransitionSystem:

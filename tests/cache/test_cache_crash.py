@@ -1,5 +1,6 @@
 """Code from the cache that crashes: it is removed, the search is done anew, and the verdict is right."""
 
+import errno
 import os
 import platform
 import signal
@@ -14,6 +15,7 @@ import pytest
 
 from rovercheck.checker import cache
 from rovercheck.checker.cache import CachedCodeUse
+from rovercheck.checker.cache.listeners import unheard
 from rovercheck.checker.encode.native.jit import OptimisationLevel, object_code
 from rovercheck.checker.engines import Engine, Limits, Progress, explicit
 from rovercheck.checker.process.pool import PoolEvent
@@ -165,9 +167,29 @@ def test_a_cache_that_is_refused_is_told_once(folder: Path, truth: dict[str, str
     said = heard(tasks=3)
     assert len(words(said)) == 6
     assert warnings(said) == [
-        "Compiled searches are compiled every time: there is no cache. "
+        "Nothing is kept for the next time, neither verdicts nor compiled searches. "
         f"Others may write to the folder {folder}: chmod go-w {folder}"
     ]
+
+
+def test_a_place_that_is_no_folder_is_told_once(folder: Path) -> None:
+    folder.write_text("")
+    [told] = warnings([*heard(tasks=2), *heard(tasks=2)])
+    assert f"Cannot write {folder}: File exists." in told and "ROVERCHECK_CACHE=" in told
+
+
+def test_a_full_disk_is_told_once_by_who_leads_the_searches(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(source: object, target: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "replace", full)
+    cache.write("key", b"code")
+    cache.write("key", b"code")
+    assert not list(folder.glob("*.part")), "what was begun is removed"
+    [why] = unheard()
+    assert f"Cannot write {folder}: No space left on device." in why and not unheard()
 
 
 def test_the_command_says_it_on_standard_error(folder: Path, tmp_path: Path) -> None:

@@ -1,15 +1,20 @@
 """Every fault of a user's model has a file and a line, also where no transition and no state is at fault."""
 
+import os
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.model.load import load
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
 from tests.model_files.test_kinds import FIRST, HEAD, always
 
+ROOT = Path(__file__).parents[2]
 FAULTS = {
     "components": (
         'S = in_order("S", oven, oven)',
@@ -97,6 +102,21 @@ def test_a_fault_has_its_line(fault: str) -> None:
     )
     [told] = refused(text)
     assert told.startswith(f"m.py:{FIRST + 2 if fault in third else FIRST}: {message}")
+
+
+def test_the_line_is_the_users_where_the_environment_is_in_her_folder(tmp_path: Path) -> None:
+    """As `.venv` is beside the model of the tutorial: rovercheck's own files are in the folder, too."""
+    library = tmp_path / ".venv" / "lib"
+    library.mkdir(parents=True)
+    (library / "rovercheck").symlink_to(ROOT / "rovercheck", target_is_directory=True)
+    (tmp_path / "oven.py").write_text(HEAD + 'X = always(\n"X", "x", that=on and minutes, covers=["x"])\n')
+    told = subprocess.run(
+        [sys.executable, "-m", "rovercheck", "check", "--model", "oven.py"],
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(library)}, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert told.returncode == Exit.USAGE
+    assert told.stderr.startswith(f"oven.py:{HEAD.count(chr(10)) + 2}: `on` is a formula"), told.stderr
 
 
 def test_a_name_that_is_taken_has_both_lines() -> None:

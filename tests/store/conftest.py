@@ -5,17 +5,19 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.cache.listeners import unheard
 from tests.engine_children import commands_here
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder of its own for the cache of this test, and a secret of its own."""
     place = tmp_path / "cache"
     monkeypatch.setenv("ROVERCHECK_CACHE", str(place))
     monkeypatch.setenv("ROVERCHECK_SECRET", str(tmp_path / "secret" / "cache-secret"))
     monkeypatch.delenv("ROVERCHECK_STORE", raising=False)
-    return place
+    yield place
+    unheard()
 
 
 @pytest.fixture

@@ -103,6 +103,8 @@ COMMANDS: Commands = {
 def explore(name: str | None, variant: Variant, traced: str | None, script: Path | None) -> Exit:
     """Run a session.  Raises ``UsageError`` for a name that is none, and a bad command of a script."""
     by_name = variant.systems()
+    if name is None and traced is None and len(by_name) == 1:
+        [name] = by_name
     if name is None and traced is None:
         return _offer(by_name)
     prop = pick("property", traced, variant.properties()) if traced else None
