@@ -76,7 +76,16 @@ def test_what_the_command_would_refuse_is_not_exported(
     expect(opened.locator("#T-1 .d-fault")).to_contain_text(says)
     opened.locator(".d-export").click()
     expect(opened.locator(".d-status")).to_contain_text("Nothing to export")
-    expect(opened.locator(".d-status")).to_contain_text("T-1")
+    for said in ("T-1", says, "No reviewer is named."):
+        expect(opened.locator(".d-status")).to_contain_text(said)
+
+
+def test_a_decision_is_shown_in_the_finding_until_it_is_taken_back(opened: Page) -> None:
+    shown = opened.locator("dd[data-decision='T-2']")
+    decide(opened, "T-2", "repair", "The chart is wrong.")
+    expect(shown).to_have_text("to be repaired, on this page")
+    opened.locator("#T-2 .d-clear").click()
+    expect(shown).to_have_text(OVER)
 
 
 def test_a_page_that_is_saved_has_its_decisions_and_can_be_saved_again(

@@ -37,6 +37,11 @@ def test_the_player_follows_the_cursor_and_the_cursor_the_player(opened: Page) -
     assert now(opened) == "tick 1 20 ms" and where(opened).startswith("Tick 1 of")
 
 
+def test_both_begin_at_the_end_of_the_run(opened: Page) -> None:
+    opened.locator(".player").scroll_into_view_if_needed()
+    assert where(opened).startswith("Tick 10 of") and now(opened) == "tick 10 200 ms"
+
+
 def test_the_cursor_moves_along_with_what_is_played(opened: Page) -> None:
     opened.locator(".player").scroll_into_view_if_needed()
     opened.clock.install()
@@ -50,6 +55,7 @@ def test_the_cursor_moves_along_with_what_is_played(opened: Page) -> None:
 
 def test_printing_leaves_both_where_they_were(opened: Page) -> None:
     opened.locator(".player").scroll_into_view_if_needed()
+    opened.locator(".player-first").click()
     opened.locator(".player-next").click()
     opened.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     assert where(opened).startswith("Tick 10 of") and now(opened) == "tick 1 20 ms"

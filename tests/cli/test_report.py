@@ -95,7 +95,7 @@ def test_a_selection_shows_only_what_concerns_it(made: tuple[Exit, str]) -> None
     asked = {covered for id in CHEAP for covered in catalogue()[id].covers}
     assert {id.removeprefix("requirement-") for id in ids if id.startswith("requirement-")} == asked
     assert "chart-Relay" in ids and "chart-Obstacles" not in ids
-    assert "Not decided here" not in made[1]
+    assert "not decided here" not in made[1]
 
 
 def test_the_page_shows_how_it_was_made_but_no_place_and_no_time(made: tuple[Exit, str]) -> None:

@@ -127,8 +127,8 @@ def about_cases(found: Sequence[ToldVerdict]) -> Iterator[str]:
         yield "Vacuous proofs, whose premise never occurs:"
         yield from (f"  {one.id}, {one.on}: {one.text}" for one in empty)
         yield (
-            "They say nothing about the charts: state a premise that some run meets. With --strict that is an "
-            "error; rovercheck docs verdicts"
+            "They say nothing about the charts: state a premise that some run meets. With --strict that is "
+            "an error; rovercheck docs verdicts"
         )
     if unknown:
         yield f"Proved, unknown whether the premise occurs: {', '.join(unknown)}."

@@ -263,7 +263,7 @@
       const pressed = this.choices.find((button) => button.getAttribute("aria-pressed") === "true");
       const wanted = pressed ? pressed.dataset.shown : "*";
       const first = this.figures.map((figure) => figure.dataset.chart)[0];
-      this.followed = [...this.moving][0] || this.followed || first;
+      this.followed = [...this.moving][0] || this.moved() || first;
       for (const figure of this.figures) {
         const name = figure.dataset.chart;
         figure.hidden = wanted !== "*" && name !== (wanted || this.followed);
@@ -271,6 +271,13 @@
         if (!figure.hidden) this.reveal(figure);
       }
       for (const button of this.choices) button.classList.toggle("moves", this.moving.has(button.dataset.shown));
+    }
+
+    // The chart whose transition was the last one taken; none before the first.
+    moved() {
+      const taken = this.steps.slice(0, this.at + 1)
+        .flatMap(({ told, first, last }) => (told ? told.transitions.slice(first, last) : []));
+      return taken.map((transition) => transition.chart).findLast((chart) => this.parts.has(chart));
     }
 
     // Scroll inside the figure until what stands out is seen.

@@ -52,6 +52,11 @@
       cell.textContent = of ? STATES[of.decision] : cell.dataset.state;
       cell.classList.toggle('decided', Boolean(of));
     }
+    for (const cell of all('dd[data-decision]')) {
+      const of = state.decisions[cell.dataset.decision];
+      cell.dataset.given ??= cell.textContent;
+      cell.textContent = of ? `${STATES[of.decision]}, on this page` : cell.dataset.given;
+    }
     const count = Object.keys(state.decisions).length;
     total.textContent = count ? `; ${count} decided on this page` : '';
     const given = one('.reviewer');
@@ -142,7 +147,7 @@
     const records = [], faulty = [];
     for (const [id, of] of Object.entries(state.decisions)) {
       const before = one('.d-state', rows.get(id)).dataset.state;
-      if (fault(of)) faulty.push(id);
+      if (fault(of)) faulty.push(`${id} (${fault(of)})`);
       else if (of.decision === 'accepted') {
         const more = Object.entries({ owner: of.owner.trim(), until: of.until }).filter(([, text]) => text);
         records.push({ id, decision: 'accepted', because: of.because.trim(), ...Object.fromEntries(more) });
@@ -152,13 +157,14 @@
     }
     const left = Object.keys(state.decisions).length - records.length - faulty.length;
     const words = [];
-    if (faulty.length) words.push(`Left out, as something is missing: ${faulty.join(', ')}.`);
+    if (faulty.length) words.push(`Left out: ${faulty.join(' ')}`);
     if (left) words.push(`${left} to be repaired or rejected: no acceptance to write.`);
     if (records.length) {
       const document = { schema: 'rovercheck/decisions/1', decisions: records };
       download(`${JSON.stringify(document, null, 2)}\n`, 'application/json', 'decisions.json');
       words.unshift(`${records.length} in decisions.json.`);
     } else words.unshift('Nothing to export: no finding is accepted here.');
+    if (!state.reviewer.trim()) words.push('No reviewer is named.');
     status.textContent = words.join(' ');
   });
 

@@ -62,6 +62,7 @@
       this.listen();
       this.move(this.count);
       this.pinned = false;
+      if (this.together && !this.together.dataset.tick) this.tell();
     }
 
     one(name) { return this.root.querySelector(`.tl-${name}`); }
