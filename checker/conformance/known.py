@@ -1,6 +1,6 @@
 """Known deviations: expected and checked on; what of them is seen, gone, changed or expired."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
 from typing import Literal
@@ -45,6 +45,27 @@ class KnownDeviation:
 
 
 @dataclass(frozen=True)
+class KnownCause:
+    """What explains known deviations of a part, by their ids: changes of it, one on top of the other.
+
+    Each as a variant writes it: kind, chart, at, from, to.
+    """
+
+    board: str
+    part: str
+    changes: tuple[tuple[str, ...], ...]
+    deviations: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class KnownDeviations:
+    """All that a file holds."""
+
+    deviations: tuple[KnownDeviation, ...] = ()
+    causes: tuple[KnownCause, ...] = ()
+
+
+@dataclass(frozen=True)
 class Judged:
     """What is to be said of a deviation that was met, by the name under which it is or would be known."""
 
@@ -58,6 +79,8 @@ class KnownJudgement:
 
     found: Mapping[DeviationScope, Judged]
     known: Sequence[tuple[KnownDeviation, RecordWord]] = ()
+    unexplained: frozenset[str] = frozenset()
+    """Those that have changed in that their cause does not explain them any more."""
 
     def of(self, deviation: Deviation) -> Judged:
         """What is to be said of one that was met."""
@@ -86,9 +109,13 @@ def judged(
     known: Iterable[KnownDeviation],
     would_show: Mapping[str, bool],
     today: date,
+    unexplained: Collection[DeviationScope] = (),
 ) -> KnownJudgement:
-    """Deviations of a board beside the known ones; ``would_show``: whether a known one, by its id, would have
-    been seen if it were still there."""
+    """Deviations of a board beside the known ones.
+
+    ``would_show``: whether a known one, by its id, would have been seen if it were still there;
+    ``unexplained``: those that the cause of a known one does not explain.
+    """
     records = [one for one in known if one.board == board]
     words: dict[str, RecordWord] = {}
     of: dict[DeviationScope, Judged] = {}
@@ -96,8 +123,11 @@ def judged(
         over = record.until is not None and record.until < today
         for one in found:
             if record.covers(one):
+                if one.scope in unexplained:
+                    of[one.scope], words[record.id] = Judged("changed", record.id), "changed"
+                    continue
                 of[one.scope] = Judged("expired" if over else "known", record.id)
-                words[record.id] = "expired" if over else "seen"
+                words.setdefault(record.id, "expired" if over else "seen")
     for record in records:
         if record.id not in words:
             others = [one for one in found if one.scope not in of and record.resembles(one)]
@@ -108,7 +138,8 @@ def judged(
             else:
                 words[record.id] = "gone" if would_show.get(record.id) else "not met"
     every = {one.scope: of.get(one.scope, Judged("new", one.scope.id(board))) for one in found}
-    return KnownJudgement(every, [(record, words[record.id]) for record in records])
+    otherwise = frozenset(of[scope].id for scope in unexplained if scope in of)
+    return KnownJudgement(every, [(record, words[record.id]) for record in records], otherwise)
 
 
 def shows(board: Board, scope: DeviationScope, met: Iterable[Situation], compared: Iterable[str]) -> bool:

@@ -11,7 +11,7 @@ from typing import Any, NoReturn, cast, get_args
 
 from rovercheck.checker.conformance.cones import parts_of
 from rovercheck.checker.conformance.deviations import DeviationKind, DeviationScope, ScopedOutput
-from rovercheck.checker.conformance.known import KnownDeviation
+from rovercheck.checker.conformance.known import KnownCause, KnownDeviation, KnownDeviations
 from rovercheck.checker.io.printable import one_line
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
@@ -21,15 +21,18 @@ AS_SPECIFIED = "as specified"
 NEVER = "never"
 FIELDS = ("id", "board", "part", "kind", "differences", "charts", "reason", "owner", "until")
 DIFFERENCE = ("output", "expected", "actual")
-TOP = ("format", "charts", "deviation")
+CAUSE = ("board", "part", "deviations", "changes")
+CHANGE = ("kind", "chart", "at", "from", "to")
+TOP = ("format", "charts", "deviation", "cause")
 
 HEAD = """\
 # Known deviations from the charts: expected, and checked on (docs/compare.md).
-# Fill in reason, owner and until (a date, or "never"); the other lines say what is known.
+# Fill in reason, owner and until (a date, or "never"); the other lines say what is known, and the causes
+# at the end which changes of the charts explain it.
 """
 
 
-def known_in(file: Path, boards: Mapping[str, Board], charts: str) -> tuple[KnownDeviation, ...]:
+def known_in(file: Path, boards: Mapping[str, Board], charts: str) -> KnownDeviations:
     """The known deviations of a file.
 
     ``charts``: how the charts differ from those specified, in words.  Raises ``ModelError`` for a file that
@@ -46,20 +49,22 @@ def known_in(file: Path, boards: Mapping[str, Board], charts: str) -> tuple[Know
     return known_of(text, _named(file), boards, charts)
 
 
-def known_of(text: str, named: str, boards: Mapping[str, Board], charts: str) -> tuple[KnownDeviation, ...]:
+def known_of(text: str, named: str, boards: Mapping[str, Board], charts: str) -> KnownDeviations:
     """The known deviations of a text.  Raises ``ModelError``."""
     try:
         table = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise ModelError(f"{named} is no TOML: {error}.") from error
-    return _KnownReader(text, named, boards).records(table, charts or AS_SPECIFIED)
+    return _KnownReader(text, named, boards).read(table, charts or AS_SPECIFIED)
 
 
-def known_text(records: Iterable[KnownDeviation], charts: str) -> str:
+def known_text(records: Iterable[KnownDeviation], charts: str, causes: Iterable[KnownCause] = ()) -> str:
     """The file of known deviations, in an order that does not depend on how they were found."""
     lines = [HEAD, f"format = {_text(FORMAT)}", f"charts = {_text(charts or AS_SPECIFIED)}"]
     for one in sorted(records, key=lambda r: (r.board, r.scope.part, r.scope, r.id)):
         lines += ["", *_record(one)]
+    for cause in sorted(causes, key=lambda c: (c.board, c.part)):
+        lines += ["", *_cause(cause)]
     return "\n".join(lines) + "\n"
 
 
@@ -85,6 +90,20 @@ def _record(one: KnownDeviation) -> Iterator[str]:
     yield f"until = {one.until.isoformat() if one.until else _text(NEVER)}"
 
 
+def _cause(one: KnownCause) -> Iterator[str]:
+    yield "[[cause]]"
+    yield f"board = {_text(one.board)}"
+    yield f"part = {_text(one.part)}"
+    yield "deviations = ["
+    yield from (f"    {_text(id)}," for id in one.deviations)
+    yield "]"
+    yield "changes = ["
+    for change in one.changes:
+        pairs = ", ".join(f"{key} = {_text(value)}" for key, value in zip(CHANGE, change, strict=True))
+        yield f"    {{ {pairs} }},"
+    yield "]"
+
+
 def _text(value: str) -> str:
     """A text in quotes: TOML escapes as JSON does, and one character more."""
     return json.dumps(value, ensure_ascii=False).replace("\x7f", r"\u007f")
@@ -102,7 +121,7 @@ class _KnownReader:
     named: str
     boards: Mapping[str, Board]
 
-    def records(self, table: Mapping[str, Any], charts: str) -> tuple[KnownDeviation, ...]:
+    def read(self, table: Mapping[str, Any], charts: str) -> KnownDeviations:
         for key in table:
             if key not in TOP:
                 self._wrong(f"there is no {key!r}. {did_you_mean(key, TOP)}", key)
@@ -114,16 +133,43 @@ class _KnownReader:
                 "use the options with which it was written, or a file of its own",
                 "charts",
             )
-        rows = table.get("deviation", [])
-        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-            self._wrong("deviation is no list of tables; begin each with [[deviation]]", "deviation")
         found: dict[str, KnownDeviation] = {}
-        for number, row in enumerate(rows):
+        for number, row in enumerate(self._tables(table, "deviation")):
             one = self._record(number, row)
             if one.id in found:
                 self._wrong(f"there are two of the id {one.id!r}; give each its own", "id", number)
             found[one.id] = one
-        return tuple(found.values())
+        causes = [self._cause(n, row, found) for n, row in enumerate(self._tables(table, "cause"))]
+        return KnownDeviations(tuple(found.values()), tuple(causes))
+
+    def _tables(self, table: Mapping[str, Any], name: str) -> list[Any]:
+        rows = table.get(name, [])
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            self._wrong(f"{name} is no list of tables; begin each with [[{name}]]", name)
+        return rows
+
+    def _cause(self, number: int, row: Mapping[str, Any], known: Mapping[str, KnownDeviation]) -> KnownCause:
+        where = "cause"
+        for key in row:
+            if key not in CAUSE:
+                self._wrong(f"a cause has no {key!r}. {did_you_mean(key, CAUSE)}", key, number, where)
+        for key in CAUSE:
+            if key not in row:
+                self._wrong(f"{key} of a cause is missing", "", number, where)
+        board, part, ids, rows = (row[key] for key in CAUSE)
+        if not isinstance(ids, list) or not ids or not all(isinstance(id, str) for id in ids):
+            self._wrong("deviations is no list of ids", "deviations", number, where)
+        for id in ids:
+            if id not in known:
+                self._wrong(
+                    f"there is no deviation {id!r}. {did_you_mean(id, known)}", "deviations", number, where
+                )
+            if (known[id].board, known[id].scope.part) != (board, part):
+                self._wrong(f"{id} is no deviation of {board!r}, {part!r}", "deviations", number, where)
+        if not isinstance(rows, list) or not all(_is_change(one) for one in rows):
+            pairs = ", ".join(CHANGE)
+            self._wrong(f"changes is no list of tables of texts {{ {pairs} }}", "changes", number, where)
+        return KnownCause(board, part, tuple(tuple(one[key] for key in CHANGE) for one in rows), tuple(ids))
 
     def _record(self, number: int, row: Mapping[str, Any]) -> KnownDeviation:
         for key in row:
@@ -197,18 +243,23 @@ class _KnownReader:
             f'until is {value!r}; write a date without quotes (2027-03-31), or "never"', "until", number
         )
 
-    def _wrong(self, what: str, key: str, number: int | None = None) -> NoReturn:
-        """Raise ``ModelError`` with the place of a key of a record, or of the file."""
-        raise ModelError(f"{self.named}:{self._line(key, number)}: {one_line(what).rstrip('.')}.")
+    def _wrong(self, what: str, key: str, number: int | None = None, table: str = "deviation") -> NoReturn:
+        """Raise ``ModelError`` with the place of a key of a table, or of the file."""
+        raise ModelError(f"{self.named}:{self._line(key, number, table)}: {one_line(what).rstrip('.')}.")
 
-    def _line(self, key: str, number: int | None) -> int:
+    def _line(self, key: str, number: int | None, table: str) -> int:
         lines = self.text.splitlines()
-        starts = [i for i, line in enumerate(lines) if line.replace(" ", "").startswith("[[deviation]]")]
+        starts = [i for i, line in enumerate(lines) if line.replace(" ", "").startswith(f"[[{table}]]")]
         if number is None:
             return next((i for i, line in enumerate(lines, 1) if _is_key(line, key)), 1)
         start = starts[number] if number < len(starts) else 0
         end = starts[number + 1] if number + 1 < len(starts) else len(lines)
         return next((i + 1 for i in range(start, end) if key and _is_key(lines[i], key)), start + 1)
+
+
+def _is_change(row: object) -> bool:
+    texts = isinstance(row, dict) and all(isinstance(value, str) for value in row.values())
+    return isinstance(row, dict) and texts and set(row) == set(CHANGE)
 
 
 def _is_key(line: str, key: str) -> bool:

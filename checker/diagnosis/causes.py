@@ -8,7 +8,7 @@ from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.diagnosis.cause_cover import PartCover, covered
 from rovercheck.checker.diagnosis.change import ChartChange
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
+from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
 from rovercheck.spec_model.abstraction import Board
 
@@ -55,15 +55,26 @@ class CutSearch:
 
 
 @dataclass(frozen=True)
+class PartChanges:
+    """All changes that were found of a part, one on top of the other, and what they explain together."""
+
+    part: str
+    changes: tuple[ChartChange, ...]
+    deviations: tuple[Deviation, ...]
+
+
+@dataclass(frozen=True)
 class CauseGroups:
     """All deviations of a board, each under one cause.
 
-    ``cut``: searches that the time ended; ``left_out``: runs that deviate and were not looked at.
+    ``cut``: searches that the time ended; ``left_out``: runs that deviate and were not looked at; ``parts``:
+    those in which causes were looked for.
     """
 
     causes: tuple[DeviationCause, ...] = ()
     cut: tuple[CutSearch, ...] = ()
     left_out: int = 0
+    parts: tuple[PartChanges, ...] = ()
 
     @property
     def searched(self) -> bool:
@@ -76,42 +87,50 @@ def by_itself(deviations: Iterable[Deviation]) -> CauseGroups:
     return CauseGroups(tuple(map(_alone, deviations)))
 
 
+def followed(
+    board: Board, runs: Sequence[Recording], progress: Callable[[str], None] = lambda _: None
+) -> Evidence:
+    """What runs say of the parts of a board.  Raises what reading the blocks of a run raises."""
+    collector = EvidenceCollector(board)
+    for number, run in enumerate(runs, 1):
+        progress(f"following deviating run {number} of {len(runs)}")
+        collector.add(run)
+    return collector.evidence()
+
+
 def cause_groups(
-    board: Board,
-    runs: Sequence[Recording],
+    evidence: Evidence,
     deviations: Sequence[Deviation],
     parts: Iterable[str],
     seconds: float,
     progress: Callable[[str], None] = lambda _: None,
 ) -> CauseGroups:
-    """The deviations in ``runs`` by cause, in the order of the first of each.
+    """The deviations that are met in the evidence by cause, in the order of the first of each.
 
-    Causes are looked for in ``parts``, for so many ``seconds`` of the processor in each.  Raises what reading
-    the blocks of a run raises.
+    Causes are looked for in ``parts``, for so many ``seconds`` of the processor in each.
     """
-    wanted = set(parts)
-    if not wanted:
-        return by_itself(deviations)
-    collector = EvidenceCollector(board)
-    for number, run in enumerate(runs, 1):
-        progress(f"following deviating run {number} of {len(runs)}")
-        collector.add(run)
+    names = set(parts)
     found: dict[str, list[DeviationCause]] = {}
     cut: list[CutSearch] = []
-    evidence = [one for one in collector.evidence().parts if one.name in wanted]
-    for number, part in enumerate(evidence, 1):
-        progress(f"looking for causes in {part.name}, part {number} of {len(evidence)}")
+    changes: list[PartChanges] = []
+    wanted = [one for one in evidence.parts if one.name in names]
+    for number, part in enumerate(wanted, 1):
+        progress(f"looking for causes in {part.name}, part {number} of {len(wanted)}")
         told = {id(d) for causes in found.values() for c in causes for d in c.deviations}
         own = [d for d in deviations if d.scope.part == part.name and id(d) not in told]
         cover = covered(part, own, seconds)
         if cover.late:
             cut.append(CutSearch(part.name, cover.tried, cover.of, cover.seconds))
         found.setdefault(part.name, []).extend(_of_part(part, cover))
+        explained = frozenset[int]().union(*(places for _, places in cover.changes))
+        made = tuple(change for change, _ in cover.changes)
+        changes.append(PartChanges(part.name, made, _at(cover, explained)))
     causes = [one for some in found.values() for one in some]
     told = {id(d) for one in causes for d in one.deviations}
     causes += [_alone(d) for d in deviations if id(d) not in told]
     places = {id(d): place for place, d in enumerate(deviations)}
-    return CauseGroups(tuple(sorted(causes, key=lambda c: places[id(c.first)])), tuple(cut))
+    inorder = sorted(causes, key=lambda c: places[id(c.first)])
+    return CauseGroups(tuple(inorder), tuple(cut), parts=tuple(changes))
 
 
 def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
@@ -160,4 +179,7 @@ def split(
     return tuple(found)
 
 
-__all__ = ["CauseGroups", "CutSearch", "DeviationCause", "by_itself", "cause_groups", "split"]
+__all__ = [
+    "CauseGroups", "CutSearch", "DeviationCause", "PartChanges", "by_itself", "cause_groups", "followed",
+    "split",
+]  # fmt: skip

@@ -84,11 +84,6 @@ def read_variant(file: Path) -> BoardVariant:
     for number, row in enumerate(rows, 1):
         if not (isinstance(row, dict) and set(row) == set(KEYS) and _are_texts(row.values())):
             raise VariantError(f"{file}, change {number}: write {', '.join(KEYS)}, each a text.")
-        if row["kind"] not in KINDS:
-            raise VariantError(
-                f"{file}, change {number}: there is no kind {row['kind']!r}. "
-                f"{did_you_mean(row['kind'], KINDS)}"
-            )
         found.append(WrittenChange(*(row[key] for key in KEYS)))
     return BoardVariant(board, tuple(found))
 
@@ -113,6 +108,8 @@ def applied(board: Board, variant: BoardVariant, file: str = "the variant") -> B
 
 def with_change(board: Board, system: System, change: WrittenChange) -> System:
     """The charts, or some of them, with one more change.  Raises ``ModelError`` for one that does not fit."""
+    if change.kind not in KINDS:
+        raise ModelError(f"there is no kind {change.kind!r}. {did_you_mean(change.kind, KINDS)}")
     names = [part.name for part in parts(system.components)]
     if change.chart not in names:
         near = did_you_mean(change.chart, names)

@@ -66,9 +66,9 @@ def firmware(folder: Path, reads: Sequence[str] = (), gives: Sequence[str] = ())
     return f"python:{file}:Faulty"
 
 
-def compare(address: str, folder: Path, *more: str) -> Exit:
+def compare(address: str, folder: Path, *more: str, causes: bool = False) -> Exit:
     return run(["compare", "--system", "board1", "--impl", address, "--examples", "0", "--mismatches", "0",
-                "-o", str(folder), *more])  # fmt: skip
+                "-o", str(folder), *([] if causes else ["--no-causes"]), *more])  # fmt: skip
 
 
 def document(address: str, folder: Path, capsys: pytest.CaptureFixture[str], *more: str) -> Any:
@@ -200,10 +200,11 @@ def test_writing_again_keeps_reasons_and_the_order_and_leaves_out_what_is_gone(
     compare(firmware(tmp_path, [WARM], [HALF]), tmp_path, "--write-known", str(known))
     assert known.read_text(encoding="utf-8") == filled, "also where it is not named as known"
     compare(firmware(tmp_path, [EMPTY], [HALF]), tmp_path, "--write-known", str(known))
-    after = known_of(known.read_text(encoding="utf-8"), "known", boards(), "")
+    whole = known_of(known.read_text(encoding="utf-8"), "known", boards(), "")
+    after = whole.deviations
     assert {one.scope.outputs for one in after} == {("batt_status",), ("v_ref",)}
     assert {bool(one.reason) for one in after if one.scope.outputs == ("v_ref",)} == {True}
-    assert known_text(reversed(after), "") == known.read_text(encoding="utf-8")
+    assert known_text(reversed(after), "", reversed(whole.causes)) == known.read_text(encoding="utf-8")
 
 
 BAD = [

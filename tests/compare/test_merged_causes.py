@@ -13,7 +13,7 @@ from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.conformance.deviations import Deviation
-from rovercheck.checker.diagnosis.causes import by_itself, cause_groups, split
+from rovercheck.checker.diagnosis.causes import by_itself, cause_groups, followed, split
 from rovercheck.checker.model.load import load
 from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 
@@ -58,7 +58,7 @@ def test_every_deviation_is_under_one_cause_with_and_without_a_change(folder: Pa
     runs: list[RecordedRun] = []
     result = cross_check(board, firmware, effort("ci", 5), deviating=runs.append)
     recordings = [one.recording for one in runs]
-    merged = cause_groups(board, recordings, result.deviations, ["Heater"], 60)
+    merged = cause_groups(followed(board, recordings), result.deviations, ["Heater"], 60)
     assert sorted(c.change.kind for c in merged.causes if c.change is not None) == ["limit", "timer"]
     for groups in (merged, by_itself(result.deviations)):
         scopes = [d.scope for cause in groups.causes for d in cause.deviations]

@@ -64,7 +64,7 @@ to = "temperature_degC >= 57"
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ("limit", "limits", "change 1: there is no kind"),
+        ("limit", "limits", "change 1 (limits in Monitor_temperature): there is no kind"),
         ("Monitor_temperature", "Monitor_temp", "change 1 (limit in Monitor_temp): board1 has no chart"),
         ("everywhere", "nowhere", "there is no another limit"),
         (">= 60", ">= 61", "and not `temperature_degC >= 61`"),

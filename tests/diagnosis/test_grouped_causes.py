@@ -8,7 +8,7 @@ from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.recording import Raw, Recording
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 from rovercheck.checker.diagnosis import trial
-from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups
+from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups, followed
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
 from rovercheck.checker.mutate.rewrites import ASSIGNED, COMPARED, rewrites
 from rovercheck.spec_model.abstraction import boards
@@ -24,7 +24,7 @@ def grouped(part: str, *runs: Recording) -> CauseGroups:
         collector.add(run)
     behaviours = collector.evidence().behaviours
     found = [d for run in runs for d in behaviours[run.name].deviations if d.scope.part == part]
-    return cause_groups(BOARD1, runs, found, [part], 60)
+    return cause_groups(followed(BOARD1, runs), found, [part], 60)
 
 
 def test_a_stamp_that_is_taken_otherwise_is_one_cause_under_the_input_made_of_it() -> None:

@@ -2,12 +2,14 @@
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.result import CompareResult
-from rovercheck.checker.conformance.deviations import Deviation
-from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself, cause_groups, split
+from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
+from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
+from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself, cause_groups, followed, split
+from rovercheck.checker.diagnosis.known_causes import no_longer_explained
 from rovercheck.spec_model.abstraction import Board
 
 
@@ -16,26 +18,40 @@ class CauseGrouping:
     """Looks for the causes of one board, for so many ``seconds`` in each part.
 
     ``asked``: in every part with a deviation that is not known, or in none; ``None``: where there are
-    several.  Known deviations are told apart from the others of their cause.
+    several.  Known deviations are told apart from the others of their cause: those that ``knows`` says are,
+    unless what explained them, which is among ``causes``, does so no longer.
     """
 
     board: Board
     seconds: float
     asked: bool | None
-    known: Callable[[Deviation], bool]
+    knows: Callable[[Deviation], bool]
+    records: Sequence[KnownDeviation] = ()
+    causes: Sequence[KnownCause] = ()
     groups: CauseGroups | None = None
+    unexplained: frozenset[DeviationScope] = field(default_factory=frozenset)
 
     def leading(
         self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
     ) -> list[Deviation]:
         """The first deviation of each group; what ends the search early leaves each by itself."""
         self.groups = by_itself(found)
+        evidence = None
+        if any(self.knows(one) and one.scope.part in {c.part for c in self.causes} for one in found):
+            evidence = followed(self.board, runs.runs, progress)
+            left = no_longer_explained(evidence, found, self.records, self.causes)
+            self.unexplained = frozenset(one.scope for one in left)
         parts = self._parts(found)
         if parts:
-            groups = cause_groups(self.board, runs.runs, found, parts, self.seconds, progress)
+            evidence = evidence or followed(self.board, runs.runs, progress)
+            groups = cause_groups(evidence, found, parts, self.seconds, progress)
             left_out = runs.of - len(runs.runs)
             self.groups = replace(groups, causes=split(groups.causes, self.known), left_out=left_out)
         return [cause.first for cause in self.groups.causes]
+
+    def known(self, one: Deviation) -> bool:
+        """Whether a deviation is known, and explained as before."""
+        return self.knows(one) and one.scope not in self.unexplained
 
     def of(self, result: CompareResult) -> CauseGroups:
         """The groups of a result, of which deviations may be told as in a smaller run."""

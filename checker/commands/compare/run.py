@@ -75,11 +75,13 @@ def compare(
         address = asked.address or board.supervisor
         if not as_json:
             _announce(asked, board, address, seed)
-        grouping = CauseGrouping(board, asked.seconds, asked.causes, partial(book.knows, board.name))
+        causes = True if asked.causes is None and asked.write_known is not None else asked.causes
+        knows, explained = partial(book.knows, board.name), book.causes(board.name)
+        grouping = CauseGrouping(board, asked.seconds, causes, knows, book.known.deviations, explained)
         result = _checked(asked, board, address, seed, book.used, grouping)
         files = _write_tests(result, address, asked.variant, output or Path())
-        judgement = _judged(book, result)
         groups = grouping.of(result)
+        judgement = _judged(book, result, grouping)
         reports.append(
             CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used, groups)
         )
@@ -103,13 +105,14 @@ def compare(
     return code
 
 
-def _judged(book: KnownBook, result: CompareResult) -> KnownJudgement:
+def _judged(book: KnownBook, result: CompareResult, grouping: CauseGrouping) -> KnownJudgement:
     compared = {o.name for o in result.board.outputs} - set(result.uncompared)
 
     def shown_by(known: KnownDeviation) -> bool:
         return result.complete and shows(result.board, known.scope, result.situations, compared)
 
-    return book.judged(result.board.name, result.deviations, shown_by)
+    found = () if grouping.groups is None else grouping.groups.parts
+    return book.judged(result.board.name, result.deviations, shown_by, grouping.unexplained, found)
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:

@@ -1,6 +1,6 @@
 """Known deviations of an implementation or of logs, as ``--known`` and ``--write-known`` name them."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
@@ -9,16 +9,23 @@ from typing_extensions import TypedDict
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import counted, write
-from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
 from rovercheck.checker.conformance.known import (
     FoundWord,
+    KnownCause,
     KnownDeviation,
+    KnownDeviations,
     KnownJudgement,
     RecordWord,
     judged,
 )
 from rovercheck.checker.conformance.known_file import known_in, known_text
+from rovercheck.checker.diagnosis.causes import PartChanges
+from rovercheck.checker.diagnosis.known_causes import causes_to_keep, changed
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import ModelError
+
+NONE_KNOWN = KnownDeviations()
 
 
 class KnownRow(TypedDict):
@@ -41,11 +48,11 @@ class KnownBook:
 
     boards: Mapping[str, Board]
     charts: str
-    known: tuple[KnownDeviation, ...] = ()
-    kept: tuple[KnownDeviation, ...] = ()
+    known: KnownDeviations = NONE_KNOWN
+    kept: KnownDeviations = NONE_KNOWN
     target: Path | None = None
     source: Path | None = None
-    written: dict[str, Sequence[KnownDeviation]] = field(default_factory=dict)
+    written: dict[str, KnownDeviations] = field(default_factory=dict)
 
     @property
     def used(self) -> bool:
@@ -54,7 +61,7 @@ class KnownBook:
 
     def concerning(self, boards: Iterable[str]) -> None:
         """Raise ``UsageError`` where nothing that is known is about these boards."""
-        others = sorted({one.board for one in self.known})
+        others = sorted({one.board for one in self.known.deviations})
         if self.source is not None and others and not set(others) & set(boards):
             raise UsageError(
                 f"{self.source} knows deviations of {', '.join(others)} alone, and this is about "
@@ -66,27 +73,45 @@ class KnownBook:
         today = date.today()
         return any(
             one.board == board and one.covers(found) and (one.until is None or one.until >= today)
-            for one in self.known
+            for one in self.known.deviations
         )
 
+    def causes(self, board: str) -> list[KnownCause]:
+        """The causes of known deviations of a board."""
+        return [one for one in self.known.causes if one.board == board]
+
     def judged(
-        self, board: str, found: Sequence[Deviation], shown_by: Callable[[KnownDeviation], bool]
+        self,
+        board: str,
+        found: Sequence[Deviation],
+        shown_by: Callable[[KnownDeviation], bool],
+        unexplained: Collection[DeviationScope] = (),
+        parts: Iterable[PartChanges] = (),
     ) -> KnownJudgement:
-        """The deviations of a board beside the known ones; what is to be written of it is noted."""
-        records = [one for one in {r.id: r for r in (*self.kept, *self.known)}.values() if one.board == board]
+        """The deviations of a board beside the known ones; what is to be written of it is noted.
+
+        ``unexplained``: those that the cause of a known one does not explain; ``parts``: causes found now.
+        """
+        known, kept = self.known.deviations, self.kept.deviations
+        records = [one for one in {r.id: r for r in (*kept, *known)}.values() if one.board == board]
         would_show = {one.id: shown_by(one) for one in records}
         today = date.today()
         if self.target is not None:
-            self.written[board] = judged(board, found, self.kept, would_show, today).records(board)
-        return judged(board, found, self.known, would_show, today)
+            own = judged(board, found, kept, would_show, today).records(board)
+            causes = causes_to_keep(board, parts, own, self.kept.causes)
+            self.written[board] = KnownDeviations(tuple(own), tuple(causes))
+        return judged(board, found, known, would_show, today, unexplained)
 
     def write(self) -> Iterator[str]:
         """Write the file that was asked for, and say so.  Raises ``UsageError``."""
         if self.target is None:
             return
-        others = [one for one in self.kept if one.board not in self.written]
-        every = [*others, *(one for records in self.written.values() for one in records)]
-        write(known_text(every, self.charts), self.target)
+        every = [one for one in self.kept.deviations if one.board not in self.written]
+        causes = [one for one in self.kept.causes if one.board not in self.written]
+        for written in self.written.values():
+            every += written.deviations
+            causes += written.causes
+        write(known_text(every, self.charts, causes), self.target)
         yield f"Wrote {counted(len(every), 'known deviation', 'known deviations')} to {self.target}."
 
 
@@ -97,7 +122,15 @@ def known_book(
 
     Raises ``ModelError`` for a file without meaning or of other charts.
     """
-    known = known_in(source, boards, charts) if source is not None else ()
+    known = known_in(source, boards, charts) if source is not None else NONE_KNOWN
+    for number, cause in enumerate(known.causes, 1):
+        try:
+            changed(boards[cause.board], boards[cause.board].system, cause)
+        except ModelError as error:
+            raise ModelError(
+                f"{source}, cause {number} ({cause.part}): {error} Take this [[cause]] out, and have "
+                "--write-known look for another."
+            ) from error
     kept = known
     if source is None and target is not None and target.is_file():
         kept = known_in(target, boards, charts)
@@ -136,6 +169,8 @@ def known_lines(judgement: KnownJudgement) -> Iterator[str]:
             assert one.until is not None
             day = one.until.isoformat()
             yield f"Known deviation {one.id} has expired on {day}: it is not known any more."
+        elif word == "changed" and one.id in judgement.unexplained:
+            yield f"Known deviation {one.id} has changed: what explained it does not explain it any more."
         elif word == "changed":
             yield f"Known deviation {one.id} has changed: another one was met in its place."
 
