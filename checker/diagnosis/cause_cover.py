@@ -7,6 +7,7 @@ left to explain, nothing more is found, or the time is over.
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -15,6 +16,7 @@ from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.program import Known
 from rovercheck.checker.diagnosis.change import ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence, logged_of
+from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.trial import Parameter
 from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
@@ -32,6 +34,9 @@ MORE_TIME = 1.5
 
 WITNESSES = 2
 """Runs in which a deviation comes first that a change must get past before all runs are tried."""
+
+LIKELY = 3
+"""Conforming runs that have contradicted most changes, with which a change is tried first."""
 
 Wrong = Mapping[int, frozenset[tuple[str, int]]]
 """The rows of a run that are wrong: in which outputs, of masks in which bits."""
@@ -121,8 +126,9 @@ class _CoverSearch(HypothesisSearch):
         self._left: frozenset[int] = frozenset()
         self._witnesses: list[Witness] = []
         self._first = frozenset[int]()
-        self._is_enough = False
+        self._settled = frozenset[int]()
         self._at_power_up = False
+        self._influence = ChangeInfluence(found.evidence.group.system, found.evidence.cone.outputs)
 
     def run(self) -> None:
         """Change upon change, while some deviation is left."""
@@ -130,12 +136,13 @@ class _CoverSearch(HypothesisSearch):
         self._left = frozenset(n for n in self._rows if self._rows[n])
         self._system = self._evidence.group.system
         while len(self._cover.changes) < MOST_CAUSES:
-            self._good, self._is_enough = [], False
+            self._good, self._settled = [], frozenset()
             self._witnesses = self._first_cases()
             self._first = frozenset(w.place for w in self._witnesses if not w.before)
             self._at_power_up = any(w.last == 0 for w in self._witnesses)
             if not self._left or not self._witnesses:
                 break
+            self._influence = ChangeInfluence(self._system, self._evidence.cone.outputs)
             self.level(self._system, ())
             if self.enough:
                 self.of = self.tried
@@ -165,10 +172,11 @@ class _CoverSearch(HypothesisSearch):
         except ModelError:
             return False
         cone = self._cone(system)
-        wrong = None if cone is None else self._wrong_with(cone, None)
+        concerned = self._concerned(change)
+        wrong = None if cone is None else self._wrong_with(cone, None, concerned)
         if wrong is None:
             return False
-        explains = frozenset(n for n in self._left if self._explained(n, wrong))
+        explains = frozenset(n for n in concerned if self._explained(n, wrong))
         if explains:
             self._accept(CoveringChange(change, explains, 0, wrong, system))
         return bool(explains)
@@ -182,6 +190,16 @@ class _CoverSearch(HypothesisSearch):
         """Initial values first, where something differs in the first step of a run."""
         return (-1.0,) if change.kind == "initial" and self._at_power_up else change.nearness
 
+    def concerns(self, change: ChartChange) -> bool:
+        """Whether a change may explain a deviation that is left."""
+        return bool(self._concerned(change))
+
+    def _concerned(self, change: ChartChange) -> frozenset[int]:
+        """The deviations that are left of outputs that a change may make otherwise."""
+        outputs = self._influence.outputs(change)
+        left = self._left - self._settled
+        return frozenset(n for n in left if outputs & set(self._cover.deviations[n].scope.outputs))
+
     @property
     def satisfied(self) -> bool:
         """Whether something is explained by transitions that are drawn."""
@@ -189,16 +207,20 @@ class _CoverSearch(HypothesisSearch):
 
     @property
     def enough(self) -> bool:
-        """Whether one change explains all that comes first in some run; what comes later is looked at then.
+        """Whether single changes explain all that comes first in some run, each of what it concerns.
 
-        Where several do it together, one that is farther from the charts may explain as much.
+        What comes later is looked at then.  Where several do it together, one that is farther from the charts
+        may explain as much.
         """
-        return self._is_enough
+        return bool(self._first) and self._first <= self._settled
 
     # --- what a change must get past ---
 
     def _first_cases(self) -> list[Witness]:
-        """For each deviation that is left runs in which it is met early, what differs before being masked."""
+        """For each deviation that is left runs in which it is met early, what differs before being masked.
+
+        Those which the part passes as it is would keep nothing out.
+        """
         found: dict[int, list[Witness]] = {}
         ids = {id(run): number for number, run in enumerate(self._bench.runs)}
         for place in self._left:
@@ -212,8 +234,15 @@ class _CoverSearch(HypothesisSearch):
                     last += 1
                 masked = [row for row in self._base[number] if row < first]
                 found.setdefault(place, []).append(Witness(place, number, last, len(masked)))
-        chosen = [one for some in found.values() for one in sorted(some, key=lambda w: w.rank)[:WITNESSES]]
-        return [self._masked(one) for one in sorted(chosen, key=lambda w: w.rank)]
+        cone = self._evidence.group.cone(self._system)
+        chosen: list[Witness] = []
+        for some in found.values():
+            candidates = map(self._masked, sorted(some, key=lambda w: w.rank))
+            chosen += islice((w for w in candidates if not self._passed(cone, w, None)), WITNESSES)
+        return sorted(chosen, key=lambda w: w.rank)
+
+    def _passed(self, cone: LogCone, one: Witness, parameter: Parameter | None) -> bool:
+        return self._bench.passes(cone, one.number, one.last, parameter, one.masked)
 
     def _masked(self, one: Witness) -> Witness:
         """With the outputs left out that differ by other deviations."""
@@ -237,29 +266,36 @@ class _CoverSearch(HypothesisSearch):
         parameter: Parameter | None = None,
     ) -> bool:
         """Note a change if it contradicts nothing and explains some deviation; whether it does."""
-        if not any(self._bench.passes(cone, w.number, w.last, parameter, w.masked) for w in self._witnesses):
+        made = change()
+        concerned = self._concerned(made)
+        witnesses = [one for one in self._witnesses if one.place in concerned]
+        if not any(self._passed(cone, one, parameter) for one in witnesses):
             return False
-        wrong = self._wrong_with(cone, parameter)
+        wrong = self._wrong_with(cone, parameter, concerned)
         if wrong is None:
             return False
-        explains = frozenset(n for n in self._left if self._explained(n, wrong))
+        explains = frozenset(n for n in concerned if self._explained(n, wrong))
         if not explains:
             return False
-        made = change()
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
         cases = sum(len(old) - len(new) for old, new in zip(self._base, wrong, strict=True))
-        self._is_enough = self._is_enough or (bool(self._first) and self._first <= explains)
+        first = self._first & concerned
+        if first and first <= explains:
+            self._settled |= concerned
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
 
-    def _wrong_with(self, cone: LogCone, parameter: Parameter | None) -> list[Wrong] | None:
-        """What is wrong with a changed part in each run; ``None`` if something is that was right before."""
+    def _wrong_with(
+        self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int]
+    ) -> list[Wrong] | None:
+        """What is wrong with a changed part in each run.
+
+        ``None`` if something is that was right before, or if none of those concerned is explained.
+        """
         found: list[Wrong] = [{} for _ in self._base]
-        order = sorted(
-            range(len(found)), key=lambda n: (bool(self._base[n]), -self._contradictions.get(n, 0))
-        )
-        for number in order:
+        left = concerned
+        for number in self._order():
             base = self._base[number]
             if not base:
                 wrong = not self._bench.passes(cone, number, None, parameter)
@@ -267,10 +303,19 @@ class _CoverSearch(HypothesisSearch):
                 rows = self._tracked_rows(cone, number, parameter, base)
                 wrong = rows is None
                 found[number] = rows or {}
+                left = frozenset(n for n in left if not self._is_wrong(n, number, found[number]))
             if wrong:
                 self._contradictions[number] = self._contradictions.get(number, 0) + 1
+            if wrong or not left:
                 return None
         return found
+
+    def _order(self) -> list[int]:
+        """Some conforming runs that contradict often, all that deviate, and the other ones."""
+        every = sorted(range(len(self._base)), key=lambda n: -self._contradictions.get(n, 0))
+        conforming = [n for n in every if not self._base[n]]
+        deviating = [n for n in every if self._base[n]]
+        return [*conforming[:LIKELY], *deviating, *conforming[LIKELY:]]
 
     def _tracked_rows(
         self, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
@@ -284,11 +329,13 @@ class _CoverSearch(HypothesisSearch):
 
     def _explained(self, place: int, wrong: Sequence[Wrong]) -> bool:
         """Whether all rows of a deviation are right, as far as they are its own."""
-        numbers = {id(run): number for number, run in enumerate(self._bench.runs)}
-        return all(
-            not (wrong[numbers[run]].get(row, frozenset()) & pieces)
-            for (run, row), pieces in self._rows[place].items()
-        )
+        return not any(self._is_wrong(place, number, rows) for number, rows in enumerate(wrong))
+
+    def _is_wrong(self, place: int, number: int, wrong: Wrong) -> bool:
+        """Whether some row of a deviation is wrong in a run, as far as it is its own."""
+        run = id(self._bench.runs[number])
+        own = self._rows[place]
+        return any(pieces & own.get((run, row), frozenset()) for row, pieces in wrong.items())
 
 
 Pieces = dict[tuple[int, int], frozenset[tuple[str, int]]]

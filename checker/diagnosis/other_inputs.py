@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.diagnosis.cause_cover import PartCover, Pieces, Wrong, differing
 from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction.interface import Carriage
 from rovercheck.spec_model.lang.errors import ModelError
@@ -25,7 +26,12 @@ def explained_by_inputs(cover: PartCover) -> list[tuple[str, frozenset[int]]]:
     except (ModelError, StopIteration):
         return []
     names = _computed(part, cone) if left else []
-    every = [(name, frozenset(_explained(part, cone, name, left, cover.base))) for name in names]
+    influence = ChangeInfluence(cover.system or part.group.system, cone.outputs)
+    every: list[tuple[str, frozenset[int]]] = []
+    for name in names:
+        outputs = influence.of_data(name)
+        own = {n: rows for n, rows in left.items() if outputs & set(cover.deviations[n].scope.outputs)}
+        every.append((name, frozenset(_explained(part, cone, name, own, cover.base))))
     found: list[tuple[str, frozenset[int]]] = []
     told = frozenset[int]()
     for name, places in sorted(every, key=lambda one: -len(one[1])):

@@ -117,6 +117,10 @@ class HypothesisSearch(ABC):
     ) -> bool:
         """Note a change of the part, which is ``cone`` with it; whether it explains what it must."""
 
+    def concerns(self, change: ChartChange) -> bool:
+        """Whether a change may explain anything; one that may not is not tried."""
+        return True
+
     @property
     def satisfied(self) -> bool:
         """Whether no transitions that are not drawn need to be tried."""
@@ -161,7 +165,8 @@ class HypothesisSearch(ABC):
             if self.ended:
                 return
             self.tried += 1
-            self._try(change, before)
+            if self.concerns(change):
+                self._try(change, before)
 
     def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
         found: list[ChartChange] = []
@@ -217,6 +222,8 @@ class HypothesisSearch(ABC):
     def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
         factors = self._factors()
         for slot in number_slots(system, only):
+            if not self.concerns(slot.change(slot.op, slot.drawn)):
+                continue
             values = values_of(slot, self._met, factors)
             self.of += len(values)
             cones: dict[Op | None, LogCone | None] = {}

@@ -1,0 +1,139 @@
+"""Which outputs of a part a change may concern: others, of other data and regions, it explains by chance.
+
+A graph of what each datum is computed from and under which conditions; the regions of a parallel chart are
+apart, unless they send each other events.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
+
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.spec_model.abstraction import Output
+from rovercheck.spec_model.lang.action import Action, Assign, If, Send, each_action
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, State
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import variables
+
+_OF_STATE = re.compile(r"(?:arrow|default|state)/([^./ ]+)")
+_OF_DATA = re.compile(r"(?:signal|data)/([^/ ]+)")
+
+
+class ChangeInfluence:
+    """What the changes of a system may make otherwise, of these outputs."""
+
+    def __init__(self, system: System, outputs: Sequence[Output]) -> None:
+        self._outputs = {o.name: {o.var.name, *variables(o.unless)} for o in outputs}
+        self._into: dict[str, set[str]] = {}
+        self._controls: dict[str, dict[str, str]] = {}
+        """Of each chart or block the nodes of its regions: the control of what is done in them."""
+        self._known: dict[tuple[str, ...], frozenset[str]] = {}
+        self._components(system.components, [])
+
+    def outputs(self, change: ChartChange) -> frozenset[str]:
+        """The names of the outputs that may be otherwise with a change."""
+        key: tuple[str, ...] = (change.kind, change.chart, change.at)
+        if change.kind == "shared":
+            key = change.key
+        if key not in self._known:
+            self._known[key] = self._reached(self._starts(change))
+        return self._known[key]
+
+    def of_data(self, name: str) -> frozenset[str]:
+        """The names of the outputs that may be otherwise with other values of a datum."""
+        return self._reached([name])
+
+    # --- the graph ---
+
+    def _components(self, components: Iterable[Component], conditions: list[Expr]) -> None:
+        for component in components:
+            if isinstance(component, Enabled):
+                self._components(component.components, [*conditions, component.by])
+                continue
+            if isinstance(component, Block):
+                controls = {"": f"{component.name}!"}
+                self._actions(component.do, controls[""], [])
+            else:
+                controls = self._chart(component)
+            self._controls[component.name] = controls
+            for control in controls.values():
+                self._edges(conditions, control)
+
+    def _chart(self, chart: Chart) -> dict[str, str]:
+        sends = any(isinstance(a, Send) for _, s in chart.root.walk() for a in each_action(list(_acts(s))))
+        apart = chart.root.parallel and not sends
+        names = [state.name for state in chart.root.states] if apart else []
+        controls = {"": f"{chart.name}!", **{name: f"{chart.name}!{name}" for name in names}}
+        for name in names:
+            self._edge(controls[""], controls[name])
+        for path, state in chart.root.walk():
+            control = controls.get(path[0] if path else "", controls[""])
+            self._edges(_guards(state), control)
+            self._actions(list(_acts(state)), control, [])
+        for place in chart.locations:
+            region = place.name.removeprefix(f"{chart.name}.").partition(".")[0]
+            self._edge(controls.get(region, controls[""]), place.name)
+        for name in (chart.entered.name, *(data.name for data, _ in chart.local_to)):
+            for control in controls.values():
+                self._edge(control, name)
+        return controls
+
+    def _actions(self, actions: Sequence[Action], control: str, conditions: list[Expr]) -> None:
+        for action in actions:
+            if isinstance(action, Assign):
+                self._edges([action.value, *conditions], action.var.name)
+                self._edge(control, action.var.name)
+            elif isinstance(action, If):
+                inside = [*conditions, action.condition]
+                self._actions(action.then, control, inside)
+                self._actions(action.otherwise, control, inside)
+
+    def _edges(self, read: Iterable[Expr], written: str) -> None:
+        for name in variables(*read):
+            self._edge(name, written)
+
+    def _edge(self, read: str, written: str) -> None:
+        self._into.setdefault(read, set()).add(written)
+
+    # --- where a change is ---
+
+    def _starts(self, change: ChartChange) -> Iterable[str]:
+        controls = self._controls.get(change.chart)
+        if controls is None or change.kind in ("interpretation", "repair", "order"):
+            return self._nodes
+        if change.kind == "shared":
+            return [n for n in self._nodes if n.startswith((change.old, change.new))]
+        if found := _OF_DATA.match(change.at):
+            return [found[1]]
+        if found := _OF_STATE.match(change.at):
+            return [controls.get(found[1], controls[""])]
+        return self._nodes if change.at.startswith("order/") else [controls[""]]
+
+    @cached_property
+    def _nodes(self) -> frozenset[str]:
+        return frozenset(self._into).union(*self._into.values())
+
+    def _reached(self, starts: Iterable[str]) -> frozenset[str]:
+        found, todo = set[str](), list(starts)
+        while todo:
+            node = todo.pop()
+            if node not in found:
+                found.add(node)
+                todo += self._into.get(node, ())
+        return frozenset(name for name, own in self._outputs.items() if own & found)
+
+
+def _guards(state: State) -> Iterator[Expr]:
+    segments = (*state.transitions, *state.default, *(t for j in state.junctions for t in j.transitions))
+    yield from (segment.guard for segment in segments if segment.guard is not None)
+
+
+def _acts(state: State) -> Iterator[Action]:
+    """The actions of a state and of the transitions that are drawn from it and in it."""
+    yield from (*state.entry, *state.during, *state.exit)
+    for segment in (*state.transitions, *state.default, *(t for j in state.junctions for t in j.transitions)):
+        yield from (*segment.do, *segment.then)
+
+
+__all__ = ["ChangeInfluence"]
