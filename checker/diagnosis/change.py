@@ -70,6 +70,8 @@ def place_text(at: str) -> str:
         return f"of {at.removeprefix('signal/')}"
     site, _, role = at.partition(" ")
     found = _SITE.fullmatch(site)
+    if site == "everywhere" and role:
+        return f"wherever {role} is assigned"
     if at == "everywhere" or found is None:
         return at
     kind, of, number, state, moment = found.groups()

@@ -17,14 +17,17 @@ from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import variables
 
 _OF_STATE = re.compile(r"(?:arrow|default|state)/([^./ ]+)")
-_OF_DATA = re.compile(r"(?:signal|data)/([^/ ]+)")
+_OF_DATA = re.compile(r"(?:signal/|data/|everywhere )([^/ ]+)")
 
 
 class ChangeInfluence:
-    """What the changes of a system may make otherwise, of these outputs."""
+    """What the changes of a system may make otherwise, of these outputs.
+
+    That an output is not compared any more, as it has no meaning then, explains nothing that it did.
+    """
 
     def __init__(self, system: System, outputs: Sequence[Output]) -> None:
-        self._outputs = {o.name: {o.var.name, *variables(o.unless)} for o in outputs}
+        self._outputs = {o.name: o.var.name for o in outputs}
         self._into: dict[str, set[str]] = {}
         self._controls: dict[str, dict[str, str]] = {}
         """Of each chart or block the nodes of its regions: the control of what is done in them."""
@@ -121,7 +124,7 @@ class ChangeInfluence:
             if node not in found:
                 found.add(node)
                 todo += self._into.get(node, ())
-        return frozenset(name for name, own in self._outputs.items() if own & found)
+        return frozenset(name for name, var in self._outputs.items() if var in found)
 
 
 def _guards(state: State) -> Iterator[Expr]:

@@ -87,7 +87,7 @@ class NumberSlot:
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
         far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 if raw != self.drawn else 0.0
-        far += (self.at != "everywhere") / 8
+        far += (not self.at.startswith("everywhere")) / 8
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
             lambda: self._with(op, self._const(raw)), far / 100, self._between(between),
@@ -128,11 +128,17 @@ def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:
 
 def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
     same: dict[object, list[NumberSlot]] = {}
+    repeated: dict[object, list[NumberSlot]] = {}
     for place, node, put, limit in numbers_in(part):
         at = f"{place.site} {place.role}"
         if limit is None:
             assert isinstance(node, Const)
             yield NumberSlot(part.name, at, node, None, None, partial(_plain, place, put), system)
+            if place.role not in ("guard", "if"):
+                key = place.role, structure(place.formula), structure(put(Const(node.value + 1, node.sort)))
+                every = partial(_in_each, part, place.formula, put)
+                slot = NumberSlot(part.name, f"everywhere {place.role}", node, None, None, every, system)
+                repeated.setdefault(key, []).append(slot)
             continue
         left, old, op = _normal(limit)
         slot = NumberSlot(part.name, at, old, op, left, partial(_compared_at, place, put, left), system)
@@ -142,10 +148,19 @@ def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
     for found in same.values():
         if len(found) > 1:
             yield _everywhere(system, part, found[0])
+    yield from (found[0] for found in repeated.values() if len(found) > 1)
 
 
 def _plain(place: FormulaPlace, put: Callable[[Expr], Expr], _: Op | None, new: Expr) -> Chart | Block:
     return place.put(put(new))
+
+
+def _in_each(
+    part: Chart | Block, formula: Expr, put: Callable[[Expr], Expr], _: Op | None, new: Expr
+) -> Chart | Block:
+    """A number in a formula that is assigned in several places, as in all states of a monitor."""
+    changed = put(new)
+    return mapped(part, lambda node: changed if same_shape(node, formula) else node)
 
 
 def _compared_at(

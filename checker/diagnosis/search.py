@@ -221,7 +221,8 @@ class HypothesisSearch(ABC):
 
     def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
         factors = self._factors()
-        for slot in number_slots(system, only):
+        slots = sorted(number_slots(system, only), key=lambda s: not s.at.startswith("everywhere"))
+        for slot in slots:
             if not self.concerns(slot.change(slot.op, slot.drawn)):
                 continue
             values = values_of(slot, self._met, factors)

@@ -45,6 +45,17 @@ def values(run: Recording, name: str) -> list[Raw | None]:
     return [value for block in run.blocks() for value in block.values[name]]
 
 
+def differs(one: list[Raw | None], other: list[Raw | None]) -> bool:
+    """Where both are compared: outputs have no meaning meanwhile, such as the heading when nothing turns."""
+    return any(a != b for a, b in zip(one, other, strict=True) if a is not None and b is not None)
+
+
+def test_what_is_not_compared_any_more_is_not_explained() -> None:
+    """A stop from power-up on would explain every reference of the stick, which a stop gives up."""
+    [one] = [c for c in changes("board1") if c.at == "data/actuate_emergency_stop/initial"]
+    assert influence("board1").outputs(one) == {"actuate_emergency_stop"}
+
+
 @pytest.mark.parametrize("board", ["board1", "board2"])
 @pytest.mark.parametrize("seed", range(6))
 def test_no_other_output_is_otherwise_with_a_change(board: str, seed: int) -> None:
@@ -58,7 +69,7 @@ def test_no_other_output_is_otherwise_with_a_change(board: str, seed: int) -> No
         except (ModelError, ValueError, AssertionError, TypeError, ZeroDivisionError):
             continue  # a search leaves it out, too
         tried += 1
-        other = {o.name for o in BOARDS[board].outputs if values(run, o.name) != values(drawn, o.name)}
+        other = {o.name for o in BOARDS[board].outputs if differs(values(run, o.name), values(drawn, o.name))}
         differing += bool(other)
         assert other <= influence(board).outputs(change), change.key
     assert tried > 20 and differing > 2
