@@ -10,7 +10,6 @@ from pathlib import Path
 from sysconfig import get_path
 from types import ModuleType
 
-import rovercheck
 from rovercheck.checker.model import shown
 from rovercheck.checker.model.neighbours import Neighbours
 from rovercheck.checker.model.statements import statement_faults
@@ -19,7 +18,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
 
 _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterable")
-_PACKAGES = {Path(str(rovercheck.__file__)).parent, *map(Path, map(get_path, ("purelib", "platlib")))}
+_PACKAGES = {Path(__file__).parents[2], *map(Path, map(get_path, ("purelib", "platlib")))}
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 

@@ -29,6 +29,8 @@ class LogOptions:
     known: Path | None = None
     write_known: Path | None = None
     jobs: int | None = None
+    causes: bool = False
+    seconds: float = 60.0
 
 
 @click.command(short_help="Check logs recorded on a board.")
@@ -40,6 +42,17 @@ class LogOptions:
     type=click.IntRange(min=1),
     metavar="N",
     help="Logs of a folder at a time; by default one per processor.",
+)
+@click.option(
+    "--causes", is_flag=True, help="Look for the nearest change of the charts that explains each deviation."
+)
+@click.option(
+    "--seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    default=60.0,
+    show_default=True,
+    metavar="S",
+    help="How long the causes of a part are looked for.",
 )
 @reporting
 @knowing

@@ -7,6 +7,7 @@ from functools import cached_property
 from rovercheck.checker.commands.shared.known import KnownBook
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, joins
 from rovercheck.checker.conformance.known import Judged, KnownDeviation, KnownJudgement, shows
+from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself
 from rovercheck.checker.logs import LogResult
 
 
@@ -16,6 +17,12 @@ class LogCampaign:
 
     logs: Sequence[LogResult]
     book: KnownBook = field(default_factory=lambda: KnownBook({}, ""))
+    causes: dict[str, CauseGroups] = field(default_factory=dict)
+    """Of each board its deviations by cause, where causes were looked for."""
+
+    def groups(self, board: str) -> CauseGroups:
+        """The deviations of a board, each by itself where nobody looked for causes."""
+        return self.causes.get(board) or by_itself(self.deviations[board])
 
     @cached_property
     def tallies(self) -> Mapping[str, DeviationTally]:

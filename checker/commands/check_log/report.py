@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
+from rovercheck.checker.commands.check_log.causes import LOGS, left_out
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
+from rovercheck.checker.commands.shared.cause_text import also, cut_short, says
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.excerpt import ExcerptWindow, excerpts
+from rovercheck.checker.diagnosis.causes import DeviationCause
 from rovercheck.checker.diagnosis.logs import logged_run
 from rovercheck.checker.logs import ColumnMap, LogError, LogResult
 from rovercheck.checker.results.campaign import (
@@ -40,10 +43,12 @@ class LogReport:
 
     def record(self) -> CampaignRecord:
         """The record.  A log that cannot be read again has no timeline."""
-        every = [(board, d) for board, found in self.campaign.deviations.items() for d in found]
-        drawn = self._lanes(every)
-        findings = [self._finding(board, d, drawn.get(n, ())) for n, (board, d) in enumerate(every)]
+        causes = [(b, c) for b in self.campaign.deviations for c in self.campaign.groups(b).causes]
+        drawn = self._lanes([(board, cause.first) for board, cause in causes])
+        findings = [self._finding(board, c, drawn.get(n, ())) for n, (board, c) in enumerate(causes)]
         notes = [line for j in self.campaign.judgements.values() for line in known_lines(j)]
+        for groups in self.campaign.causes.values():
+            notes += [*cut_short(groups), *filter(None, [left_out(groups)])]
         return CampaignRecord(
             f"{self.folder.name}: logs beside the charts", OF_LOGS, self.charts,
             [_recording(name, one) for name, one in self.found.items()],
@@ -67,12 +72,17 @@ class LogReport:
             lanes |= {n: one for (n, _, _), one in zip(own, found, strict=True)}
         return lanes
 
-    def _finding(self, board: str, one: Deviation, drawn: tuple[OutputLane, ...] | str) -> CampaignFinding:
+    def _finding(
+        self, board: str, cause: DeviationCause, drawn: tuple[OutputLane, ...] | str
+    ) -> CampaignFinding:
+        """The first deviation of a cause, with what is known of all."""
         every = self.campaign.deviations[board]
         of_board = [log for log in self.campaign.logs if log.layout.board == board]
         groups = ((log.name, log.behaviour.tally.groups.values()) for log in of_board)
-        met = sightings([one], groups, every, TICK_MS, lines=True)
-        found = deviation_finding(board, one, self.campaign.judgements[board], OF_LOGS, met)
+        met = sightings(cause.deviations, groups, every, TICK_MS, lines=True)
+        more = [("also", also(one, cause, LOGS)) for one in cause.deviations[1:]]
+        found = deviation_finding(board, cause.first, self.campaign.judgements[board], OF_LOGS, met, more)
+        found = replace(found, cause=says(cause))
         place = Place(str(self.folder / found.first.recording), found.first.line)
         if isinstance(drawn, str):
             return replace(found, undrawn=drawn, places=(place,))

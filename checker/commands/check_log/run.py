@@ -23,6 +23,7 @@ from rovercheck.checker.logs import LogError, LogResult
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.campaign import CampaignRecord
 from rovercheck.checker.verify.searches import cores
+from rovercheck.spec_model.abstraction import boards
 
 GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
 """Of a folder the first of these that applies to some log."""
@@ -57,6 +58,7 @@ def _log(place: Path, asked: LogRequest) -> Exit:
         raise UsageError(f"{place}: {error}") from error
     campaign = LogCampaign([found], asked.book)
     _finish(campaign)
+    _look_for_causes(campaign, place.absolute().parent, asked)
     record = _record({place.name: found}, campaign, place.absolute().parent, asked) if asked.reports else None
     code = _code_of(found, campaign)
     if asked.options.as_json and record is not None:
@@ -76,6 +78,18 @@ def _finish(campaign: LogCampaign) -> None:
         campaign.book.concerning(list(campaign.judgements))
     for said in campaign.book.write():
         err.print(said, markup=False)
+
+
+def _look_for_causes(campaign: LogCampaign, folder: Path, asked: LogRequest) -> None:
+    if not asked.options.causes:
+        return
+    from rovercheck.checker.commands.check_log.causes import causes_in
+
+    known = asked.against.boards if asked.against is not None else boards()
+    with ProgressLine() as line:
+        campaign.causes.update(
+            causes_in(campaign, folder, asked.how, known, asked.options.seconds, line.show)
+        )
 
 
 def _record(
@@ -114,6 +128,7 @@ def _folder(folder: Path, asked: LogRequest, charts: VariantOptions | None) -> E
     found = {log.name: told[log] for log in logs}
     campaign = LogCampaign([one for one in found.values() if isinstance(one, LogResult)], asked.book)
     _finish(campaign)
+    _look_for_causes(campaign, folder.absolute(), asked)
     record = _record(found, campaign, folder.absolute(), asked) if asked.reports else None
     code = _code(list(found.values()), campaign)
     if asked.options.as_json and record is not None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from textwrap import fill, shorten
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
+from rovercheck.checker.commands.shared.cause_text import also, cut_short, says
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
@@ -44,6 +45,7 @@ def page(found: LogResult, verbose: bool, charts: str = "", campaign: LogCampaig
         _cells(found.invalid),
         _properties(found, verbose),
         _behaviour(found, campaign),
+        _causes(campaign),
         _known(campaign),
     )
     return "\n\n".join(text for part in parts if (text := "\n".join(part)))
@@ -252,9 +254,11 @@ def _over_all(campaign: LogCampaign | None) -> Iterator[str]:
         return
     yield "Deviations over all logs:"
     number = 0
-    for board, found in campaign.deviations.items():
+    for board in campaign.deviations:
         of_board = sum(log.layout.board == board for log in campaign.logs)
-        for one in found:
+        groups = campaign.groups(board)
+        for cause in groups.causes:
+            one = cause.first
             number += 1
             judged = campaign.judgements[board].of(one)
             known = f" ({mark(judged.word, judged.id)})" if campaign.book.used else ""
@@ -266,6 +270,22 @@ def _over_all(campaign: LogCampaign | None) -> Iterator[str]:
             yield _lines("", f"{when}; {first}", hang=6)
             for move in one.scope.charts:
                 yield _lines("", move, hang=8)
+            if told := says(cause):
+                yield _lines("", f"cause: {told}.", hang=6)
+            for other in cause.deviations[1:]:
+                yield _lines("", f"also: {also(other, cause, ('log', 'logs'))}", hang=8)
+        yield from (_lines("", line, indent=0, hang=0) for line in cut_short(groups))
+
+
+def _causes(campaign: LogCampaign | None) -> Iterator[str]:
+    """Of one log what explains its deviations, where that was looked for."""
+    for groups in campaign.causes.values() if campaign is not None else ():
+        yield "Causes:"
+        for cause in groups.causes:
+            ways = counted(len(cause.deviations), "deviation", "deviations")
+            told = f"{says(cause)}: {ways}" if says(cause) else f"{headline(cause.first)}: nothing found"
+            yield _lines("-", told, indent=2, hang=4)
+        yield from (_lines("", line, indent=2, hang=4) for line in cut_short(groups))
 
 
 def _known(campaign: LogCampaign | None) -> Iterator[str]:

@@ -1,21 +1,14 @@
-"""What is told of the cause of a finding: what explains it, in which ways it shows, where nobody looked."""
+"""What is told of the causes of a cross-check: how often, in which ways, where nobody looked."""
 
 from collections.abc import Iterator
 
-from rovercheck.checker.commands.shared.deviation_text import headline
+from rovercheck.checker.commands.shared.cause_text import also, cut_short, says
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.checker.compare.result import CompareResult
-from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause
-from rovercheck.checker.diagnosis.sentences import behaves_like
 
-
-def says(cause: DeviationCause) -> str:
-    """What explains the deviations of a cause; empty where nothing does."""
-    if cause.change is not None:
-        return behaves_like(cause.change)
-    return f"{cause.part} behaves as if it had other values of {cause.input}" if cause.input else ""
+RUNS = "run", "runs"
 
 
 def in_all(cause: DeviationCause, result: CompareResult) -> str:
@@ -36,24 +29,12 @@ def cause_lines(one: DeviationCause, result: CompareResult, indent: str) -> Iter
         others = counted(len(one.deviations) - 1, "other way", "other ways")
         yield wrapped(f"it shows in {others}, in all in {in_all(one, result)}:", indent)
     for other in one.deviations[1:]:
-        yield wrapped(f"- {also(other, one)}", f"{indent}  ")
-
-
-def also(other: Deviation, one: DeviationCause) -> str:
-    """Another way in which a finding shows: what differs, where the charts are, in how many runs."""
-    moves = [move.removeprefix(f"{one.part}: ") for move in other.scope.charts]
-    told = headline(other).removeprefix(f"{one.part}: ")
-    where = f" ({'; '.join(moves)})" if moves else ""
-    return f"{told}{where}, in {counted(other.runs, 'run', 'runs')}"
+        yield wrapped(f"- {also(other, one, RUNS)}", f"{indent}  ")
 
 
 def searched(groups: CauseGroups) -> Iterator[str]:
     """Where causes were not looked for to the end."""
-    for cut in groups.cut:
-        yield (
-            f"Causes in {cut.part}: {cut.tried:,} changes tried in {cut.seconds:.0f} s, not all; more with "
-            "--seconds S. Deviations of one cause may be told as several there."
-        )
+    yield from cut_short(groups)
     if groups.left_out:
         runs = counted(groups.left_out, "run that deviates", "runs that deviate")
         yield f"Causes were looked for without {runs}, of which others show the deviations, too."

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 from annotated_types import MinLen
 from typing_extensions import TypedDict
 
-from rovercheck.checker.commands.compare.cause_text import says
 from rovercheck.checker.commands.compare.text import CrosscheckReport, shown
 from rovercheck.checker.commands.diagnose.document import ChangeRow, change_row
 from rovercheck.checker.commands.shared.campaign_document import CampaignDocument, campaign_document
+from rovercheck.checker.commands.shared.cause_text import says
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.known import KnownRow, known_rows
 from rovercheck.checker.compare.beside import StepMismatch

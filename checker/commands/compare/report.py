@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 
-from rovercheck.checker.commands.compare.cause_text import also, in_all, says, searched
+from rovercheck.checker.commands.compare.cause_text import RUNS, in_all, searched
 from rovercheck.checker.commands.compare.places import ImplementationPlaces
 from rovercheck.checker.commands.compare.text import CrosscheckReport, failure_cause, untried
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
+from rovercheck.checker.commands.shared.cause_text import also, says
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.compare.beside import differences
@@ -132,7 +133,7 @@ class BoardRecord:
         groups = [(self._named(r), r.groups) for r in result.notable]
         met = sightings(group, groups, self._every, tick_ms)
         more = [("in all", in_all(cause, result))]
-        more += [("also", also(one, cause)) for one in group[1:]]
+        more += [("also", also(one, cause, RUNS)) for one in group[1:]]
         found = deviation_finding(result.board.name, group[0], self.of.judgement, OF_RUNS, met, more)
         drawn = next(
             (one for one in group if any(s.first == found.first for s in self._sightings(one, groups))),
