@@ -198,7 +198,7 @@ class _CoverSearch(HypothesisSearch):
         """The deviations that are left of outputs that a change may make otherwise."""
         outputs = self._influence.outputs(change)
         left = self._left - self._settled
-        return frozenset(n for n in left if outputs & set(self._cover.deviations[n].scope.outputs))
+        return frozenset(n for n in left if outputs.issuperset(self._cover.deviations[n].scope.outputs))
 
     @property
     def satisfied(self) -> bool:

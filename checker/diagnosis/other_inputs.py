@@ -30,7 +30,7 @@ def explained_by_inputs(cover: PartCover) -> list[tuple[str, frozenset[int]]]:
     every: list[tuple[str, frozenset[int]]] = []
     for name in names:
         outputs = influence.of_data(name)
-        own = {n: rows for n, rows in left.items() if outputs & set(cover.deviations[n].scope.outputs)}
+        own = {n: rows for n, rows in left.items() if outputs.issuperset(cover.deviations[n].scope.outputs)}
         every.append((name, frozenset(_explained(part, cone, name, own, cover.base))))
     found: list[tuple[str, frozenset[int]]] = []
     told = frozenset[int]()
