@@ -5,17 +5,19 @@ apart, unless they send each other events.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.spec_model.abstraction import Output
 from rovercheck.spec_model.lang.action import Action, Assign, If, Send, each_action
-from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, State
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, State, parts
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.walk import structure, variables
 
+EVERYWHERE = "everywhere"
 _OF_STATE = re.compile(r"(?:arrow|default|state)/([^./ ]+)")
 _OF_DATA = re.compile(r"(?:signal/|data/|everywhere )([^/ ]+)")
 
@@ -27,7 +29,9 @@ class ChangeInfluence:
     """
 
     def __init__(self, system: System, outputs: Sequence[Output]) -> None:
+        self._system = system
         self._outputs = {o.name: o.var.name for o in outputs}
+        self._written: dict[str, dict[str, list[object]]] = {}
         self._into: dict[str, set[str]] = {}
         self._controls: dict[str, dict[str, str]] = {}
         """Of each chart or block the nodes of its regions: the control of what is done in them."""
@@ -37,8 +41,8 @@ class ChangeInfluence:
     def outputs(self, change: ChartChange) -> frozenset[str]:
         """The names of the outputs that may be otherwise with a change."""
         key: tuple[str, ...] = (change.kind, change.chart, change.at)
-        if change.kind == "shared":
-            key = change.key
+        if change.kind == "shared" or change.at == EVERYWHERE:
+            key = (*key, change.old, change.new if change.kind in ("shared", "exchanged") else "")
         if key not in self._known:
             self._known[key] = self._reached(self._starts(change))
         return self._known[key]
@@ -107,11 +111,23 @@ class ChangeInfluence:
             return self._nodes
         if change.kind == "shared":
             return [n for n in self._nodes if n.startswith((change.old, change.new))]
+        if change.at == EVERYWHERE and len(controls) > 1:
+            return self._rewritten(change, controls)
         if found := _OF_DATA.match(change.at):
             return [found[1]]
         if found := _OF_STATE.match(change.at):
             return [controls.get(found[1], controls[""])]
         return self._nodes if change.at.startswith("order/") else [controls[""]]
+
+    def _rewritten(self, change: ChartChange, controls: Mapping[str, str]) -> list[str]:
+        """The regions of a chart in which something is written otherwise with a change."""
+        try:
+            new = _regions(change.make(), change.chart)
+        except (ModelError, AssertionError, ValueError):
+            return [controls[""]]
+        old = self._written.setdefault(change.chart, _regions(self._system, change.chart))
+        names = [name for name in {*old, *new} if old.get(name) != new.get(name)]
+        return [controls.get(name, controls[""]) for name in names] or [controls[""]]
 
     @cached_property
     def _nodes(self) -> frozenset[str]:
@@ -125,6 +141,28 @@ class ChangeInfluence:
                 found.add(node)
                 todo += self._into.get(node, ())
         return frozenset(name for name, var in self._outputs.items() if var in found)
+
+
+def _regions(system: System, chart: str) -> dict[str, list[object]]:
+    """What is written in each region of a chart."""
+    found: dict[str, list[object]] = {}
+    for part in parts(system.components):
+        if isinstance(part, Chart) and part.name == chart:
+            for path, state in part.root.walk():
+                own = found.setdefault(path[0] if path else "", [])
+                own += [*map(structure, _guards(state)), *_shapes(list(_acts(state)))]
+    return found
+
+
+def _shapes(actions: Sequence[Action]) -> Iterator[object]:
+    for action in each_action(actions):
+        match action:
+            case Assign(var, value):
+                yield var.name, structure(value)
+            case If(condition):
+                yield structure(condition)
+            case _:
+                yield str(action)
 
 
 def _guards(state: State) -> Iterator[Expr]:

@@ -85,6 +85,8 @@ def change(kind: str, chart: str, at: str, old: str = "", new: str = "") -> Char
     [
         (("missing", "Monitors_2", "state/Rx.OK/entry/action-missing"), "rx_status"),
         (("shared", "Monitors_2", "buffers", "B2.rx_", "imu_"), "rx_status imu_status"),
+        (("timer", "Monitors_2", "everywhere", "duration(!deg_imu) > 1 s"), "imu_status"),
+        (("exchanged", "Monitors_2", "everywhere", "esp_age", "imu_age"), "esp_status imu_status"),
     ],
 )
 def test_regions_of_a_parallel_chart_are_apart(one: tuple[str, ...], concerns: str) -> None:
