@@ -68,8 +68,8 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
 
 REWRITES: Mapping[str, ChangeKind] = {
     "bit": "bit", "operands": "operands", "member": "member", "negated": "negated", "signal": "signal",
-    "exchanged": "exchanged", "members": "exchanged", "target": "target", "order": "order", "timer": "timer",
-    "extra": "extra", "shared": "shared",
+    "exchanged": "exchanged", "members": "exchanged", "bits": "exchanged", "target": "target",
+    "order": "order", "timer": "timer", "extra": "extra", "shared": "shared",
 }  # fmt: skip
 
 TOLD = {
@@ -80,6 +80,7 @@ TOLD = {
     "signal": "{new} is read in place of {old}",
     "exchanged": "{old} and {new} are exchanged",
     "members": "{old} and {new} are exchanged where they are {site}",
+    "bits": "{old} and {new} are exchanged",
     "target": "the transition to {old} leads to {new}",
     "order": "{old} is tested {new}",
     "timer": "a time of {new} instead of {old}",
@@ -90,7 +91,7 @@ TOLD = {
 
 def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
     word: str = "signal" if kind == "exchanged" and one.new not in part.read else kind
-    if one.kind == "members":
+    if one.kind in ("members", "bits"):
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
     if one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):

@@ -48,6 +48,7 @@ def rewrites(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewrite
     yield from _signals(part, places, others)
     yield from _exchanged(part, others)
     yield from _exchanged_members(part, places)
+    yield from _exchanged_bits(part, places)
 
 
 def timer_rewrites(part: Chart | Block, step_ms: int, steps: Sequence[int]) -> Iterator[Rewrite]:
@@ -167,6 +168,33 @@ def _exchanged_members(part: Chart | Block, places: Sequence[FormulaPlace]) -> I
             if one.sort == two.sort:
                 swap = {one.value: two, two.value: one}
                 yield Rewrite("members", where, str(one), str(two), mapped(part, partial(change, swap)))
+
+
+def _exchanged_bits(part: Chart | Block, places: Sequence[FormulaPlace]) -> Iterator[Rewrite]:
+    """Two bits in each other's place in all masks that are put together of conditions."""
+    nodes = [node for place in places for node, _ in nodes_in(place.formula)]
+    bits = sorted({bit for node in nodes if (bit := _bit(node)) is not None})
+    for one, two in combinations(bits, 2):
+        changed = mapped(part, partial(_other_bit, {one: two, two: one}))
+        yield Rewrite("bits", "everywhere", f"bit {one}", f"bit {two}", changed)
+
+
+def _bit(node: Expr) -> int | None:
+    """The bit of a mask that a condition sets: of ``q ? 4 : 0`` it is 2."""
+    match node:
+        case Apply(Op.ITE, (_, Const(weight, Num()), Const(0, _))) if weight > 0 and not weight & (
+            weight - 1
+        ):
+            return weight.bit_length() - 1
+    return None
+
+
+def _other_bit(swap: Mapping[int, int], node: Expr) -> Expr:
+    bit = _bit(node)
+    if bit is None or bit not in swap or not isinstance(node, Apply):
+        return node
+    condition, weight, nothing = node.args
+    return replace(node, args=(condition, Const(1 << swap[bit], weight.sort), nothing))
 
 
 COMPARED, ASSIGNED = "where compared", "where assigned"

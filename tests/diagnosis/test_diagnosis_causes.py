@@ -119,6 +119,21 @@ def test_an_output_that_is_held_is_found() -> None:
     assert told in list(every_text(the_part(made, *RESTLESS)))
 
 
+def test_bits_that_are_exchanged_in_all_masks_are_found() -> None:
+    """Of conditions about signals of different kinds, which cannot be read for each other."""
+    weights = {2: 4, 4: 2}
+
+    def exchanged(node: Expr) -> Expr:
+        match node:
+            case Apply(Op.ITE, (condition, Const(weight, sort), Const(0, _) as nothing)) if weight in weights:
+                return replace(node, args=(condition, Const(weights[weight], sort), nothing))
+        return node
+
+    made = changed("board1", "Fault_masks", lambda p: mapped(p, exchanged))
+    flat = inputs("board1", [(5, {}), (300, {"battery_pct": 20.0}), (300, {"battery_pct": 10.0})])
+    assert first(made, LINKS, flat) == ("exchanged", "Fault_masks", "bit 1 and bit 2 are exchanged")
+
+
 def every_text(part: DiagnosedPart) -> Iterator[str]:
     """The texts of the cause and of those that explain as much."""
     for cause in (part.cause, *(r.cause for r in part.rivals)):

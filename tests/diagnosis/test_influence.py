@@ -72,7 +72,7 @@ def test_no_other_output_is_otherwise_with_a_change(board: str, seed: int) -> No
         other = {o.name for o in BOARDS[board].outputs if differs(values(run, o.name), values(drawn, o.name))}
         differing += bool(other)
         assert other <= influence(board).outputs(change), change.key
-    assert tried > 20 and differing > 2
+    assert tried > 20 and differing
 
 
 def change(kind: str, chart: str, at: str, old: str = "", new: str = "") -> ChartChange:
