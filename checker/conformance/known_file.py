@@ -161,9 +161,8 @@ class _KnownReader:
             self._wrong("deviations is no list of ids", "deviations", number, where)
         for id in ids:
             if id not in known:
-                self._wrong(
-                    f"there is no deviation {id!r}. {did_you_mean(id, known)}", "deviations", number, where
-                )
+                told = f"there is no deviation {id!r}; if it has another id now, write that here, too"
+                self._wrong(told, "deviations", number, where)
             if (known[id].board, known[id].scope.part) != (board, part):
                 self._wrong(f"{id} is no deviation of {board!r}, {part!r}", "deviations", number, where)
         if not isinstance(rows, list) or not all(_is_change(one) for one in rows):

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from sysconfig import get_path
 from types import ModuleType
 
 from rovercheck.checker.model import shown
@@ -18,7 +17,9 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
 
 _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterable")
-_PACKAGES = {Path(__file__).parents[2], *map(Path, map(get_path, ("purelib", "platlib")))}
+_OURS = Path(__file__).parents[2]
+_PACKAGES = {"site-packages", "dist-packages"}
+"""Folders of an environment, which may lie in that of the model."""
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 
@@ -88,7 +89,9 @@ def _located(error: BaseException, neighbours: Neighbours, file: Path) -> str:
 def _of_the_user(filename: str, neighbours: Neighbours) -> bool:
     """Whether a file is of the model, and not of a package in an environment that lies beside it."""
     path = Path(filename)
-    return path.is_relative_to(neighbours.folder) and not any(map(path.is_relative_to, _PACKAGES))
+    if not path.is_relative_to(neighbours.folder) or path.is_relative_to(_OURS):
+        return False
+    return _PACKAGES.isdisjoint(path.relative_to(neighbours.folder).parts)
 
 
 def _hint(error: BaseException, neighbours: Neighbours) -> str:

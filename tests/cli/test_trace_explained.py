@@ -95,7 +95,7 @@ def test_an_explanation_that_takes_too_long_is_left_out(capfd: pytest.CaptureFix
 def test_a_run_without_end_says_why_it_is_not_explained(capfd: pytest.CaptureFixture[str]) -> None:
     looped = replace(first(), loop=1)
     assert ExplanationOptions()(looped, ENDS, systems()) is looped
-    assert "it repeats for ever" in capfd.readouterr().err
+    assert "its last ticks repeat for ever" in capfd.readouterr().err
 
 
 def wanted(prop: Property, example: bool = False) -> TraceRequest:

@@ -176,7 +176,9 @@ def test_a_known_finding_is_a_suppressed_note_with_the_fingerprint_of_the_new_on
     text = known.read_text(encoding="utf-8")
     reason, owner = 'reason = "agreed in review 12"', 'owner = "Ada"'
     text = re.sub("(?m)^reason = .*$", reason, re.sub("(?m)^owner = .*$", owner, text))
-    text = re.sub('(?m)^id = ".*"$', 'id = "renamed"', text)
+    [id] = re.findall('(?m)^id = "(.*)"$', text)
+    assert text.count(f'"{id}"') == 2, "of the deviation, and in its cause"
+    text = text.replace(f'"{id}"', '"renamed"')
     known.write_text(re.sub("(?m)^until = .*$", 'until = "never"', text), encoding="utf-8")
     found = told(impl, "--known", str(known))
     [result] = found.results
