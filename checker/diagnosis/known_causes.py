@@ -25,6 +25,7 @@ def no_longer_explained(
     follow from it.  Raises ``ModelError`` for a cause that does not fit the charts.
     """
     left: list[Deviation] = []
+    known = [one for one in known if one.board == evidence.board.name]
     for cause in causes:
         records = [one for one in known if one.id in cause.deviations]
         own = [one for one in found if any(record.covers(one) for record in records)]

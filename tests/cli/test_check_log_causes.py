@@ -8,7 +8,9 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check_log import causes as causes_of_logs
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.logs import LogError
 from tests.logs.recorded import Row, copied, long_log, written
 from tests.schemas import published
 
@@ -81,3 +83,17 @@ def test_what_is_known_is_told_apart_from_what_is_new_of_one_cause(
     found = document(logs, capsys, "--causes", "--known", str(known))
     words = {one["cause"]: one["word"] for one in found["campaign"]["findings"]}
     assert words[LATE] == "known" and words[""] != "known"
+
+
+def test_logs_that_cannot_be_read_again_are_told(
+    logs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def changed(*_: object) -> None:
+        raise LogError("has changed")
+
+    monkeypatch.setattr(causes_of_logs, "followed", changed)
+    found = document(logs, capsys, "--causes")
+    assert causes(found) == {"": {"one.csv", "two.csv"}}
+    assert any("Causes were looked for without 2 logs" in note for note in found["campaign"]["notes"])
+    run(["check-log", str(logs), "--causes"])
+    assert "Causes were looked for without 2 logs" in " ".join(capsys.readouterr().out.split())

@@ -15,6 +15,7 @@ from rovercheck.checker.commands.shared.options import (
     modelling,
     quietly,
     reading_logs,
+    seeking_causes,
 )
 
 
@@ -46,14 +47,7 @@ class LogOptions:
 @click.option(
     "--causes", is_flag=True, help="Look for the nearest change of the charts that explains each deviation."
 )
-@click.option(
-    "--seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    default=60.0,
-    show_default=True,
-    metavar="S",
-    help="How long the causes of a part are looked for.",
-)
+@seeking_causes
 @reporting
 @knowing
 @changing

@@ -1,14 +1,15 @@
 """Causes of the deviations of a campaign: its logs are read again, those alone that deviate."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
+from rovercheck.checker.commands.shared.cause_text import cut_short
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.recording import Recording
-from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups, followed, split
+from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself, cause_groups, followed, split
 from rovercheck.checker.diagnosis.logs import logged_run
 from rovercheck.checker.logs import ColumnMap, LogError
 from rovercheck.spec_model.abstraction import Board
@@ -40,6 +41,7 @@ def causes_in(
         try:
             evidence = followed(boards[name], runs, lambda said: progress(f"{said}, logs"))
         except (LogError, OSError):  # one has changed meanwhile
+            found[name] = replace(by_itself(deviations), left_out=left_out + len(runs))
             continue
         parts = {one.scope.part for one in deviations if one.scope.part}
         groups = cause_groups(evidence, deviations, parts, seconds, progress)
@@ -54,8 +56,9 @@ def causes_in(
 LOGS = "log", "logs"
 
 
-def left_out(groups: CauseGroups) -> str:
-    """What is said of logs in which no cause was looked for; empty where there are none."""
-    if not groups.left_out:
-        return ""
-    return f"Causes were looked for without {counted(groups.left_out, *LOGS)}, which could not be read again."
+def not_searched(groups: CauseGroups) -> Iterator[str]:
+    """Where causes were not looked for to the end, and in which logs not at all."""
+    yield from cut_short(groups)
+    if groups.left_out:
+        logs = counted(groups.left_out, *LOGS)
+        yield f"Causes were looked for without {logs}, as not all that deviate could be read again."

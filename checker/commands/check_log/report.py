@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
-from rovercheck.checker.commands.check_log.causes import LOGS, left_out
+from rovercheck.checker.commands.check_log.causes import LOGS, not_searched
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
-from rovercheck.checker.commands.shared.cause_text import also, cut_short, says
+from rovercheck.checker.commands.shared.cause_text import also, says
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.excerpt import ExcerptWindow, excerpts
@@ -48,7 +48,7 @@ class LogReport:
         findings = [self._finding(board, c, drawn.get(n, ())) for n, (board, c) in enumerate(causes)]
         notes = [line for j in self.campaign.judgements.values() for line in known_lines(j)]
         for groups in self.campaign.causes.values():
-            notes += [*cut_short(groups), *filter(None, [left_out(groups)])]
+            notes += not_searched(groups)
         return CampaignRecord(
             f"{self.folder.name}: logs beside the charts", OF_LOGS, self.charts,
             [_recording(name, one) for name, one in self.found.items()],

@@ -81,6 +81,7 @@ def _finish(campaign: LogCampaign) -> None:
 
 
 def _look_for_causes(campaign: LogCampaign, folder: Path, asked: LogRequest) -> None:
+    """Where that was asked for."""
     if not asked.options.causes:
         return
     from rovercheck.checker.commands.check_log.causes import causes_in

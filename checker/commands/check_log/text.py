@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from textwrap import fill, shorten
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
-from rovercheck.checker.commands.shared.cause_text import also, cut_short, says
+from rovercheck.checker.commands.check_log.causes import LOGS, not_searched
+from rovercheck.checker.commands.shared.cause_text import also, says
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
@@ -273,8 +274,8 @@ def _over_all(campaign: LogCampaign | None) -> Iterator[str]:
             if told := says(cause):
                 yield _lines("", f"cause: {told}.", hang=6)
             for other in cause.deviations[1:]:
-                yield _lines("", f"also: {also(other, cause, ('log', 'logs'))}", hang=8)
-        yield from (_lines("", line, indent=0, hang=0) for line in cut_short(groups))
+                yield _lines("", f"also: {also(other, cause, LOGS)}", hang=8)
+        yield from (_lines("", line, indent=0, hang=0) for line in not_searched(groups))
 
 
 def _causes(campaign: LogCampaign | None) -> Iterator[str]:
@@ -285,7 +286,7 @@ def _causes(campaign: LogCampaign | None) -> Iterator[str]:
             ways = counted(len(cause.deviations), "deviation", "deviations")
             told = f"{says(cause)}: {ways}" if says(cause) else f"{headline(cause.first)}: nothing found"
             yield _lines("-", told, indent=2, hang=4)
-        yield from (_lines("", line, indent=2, hang=4) for line in cut_short(groups))
+        yield from (_lines("", line, indent=2, hang=4) for line in not_searched(groups))
 
 
 def _known(campaign: LogCampaign | None) -> Iterator[str]:

@@ -14,6 +14,7 @@ from rovercheck.checker.commands.shared.options import (
     knowing,
     modelling,
     quietly,
+    seeking_causes,
 )
 from rovercheck.checker.commands.shared.silence import say_more
 
@@ -76,14 +77,7 @@ class ComparisonOptions:
     default=None,
     help="Look for causes in every part that deviates, or in none; else where a part does in several ways.",
 )
-@click.option(
-    "--seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    default=60.0,
-    show_default=True,
-    metavar="S",
-    help="How long the causes of a part are looked for.",
-)
+@seeking_causes
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(
     "--output",

@@ -41,6 +41,7 @@ class CauseGrouping:
             evidence = followed(self.board, runs.runs, progress)
             left = no_longer_explained(evidence, found, self.records, self.causes)
             self.unexplained = frozenset(one.scope for one in left)
+            self.groups = replace(self.groups, left_out=runs.of - len(runs.runs))
         parts = self._parts(found)
         if parts:
             evidence = evidence or followed(self.board, runs.runs, progress)

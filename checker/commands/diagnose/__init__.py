@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import gathered, quietly, reading_logs
+from rovercheck.checker.commands.shared.options import gathered, quietly, reading_logs, seeking_causes
 
 
 @dataclass(frozen=True)
@@ -29,14 +29,7 @@ class DiagnoseOptions:
 @click.option(
     "--write", type=click.Path(path_type=Path), metavar="FILE", help="Write the causes as a variant."
 )
-@click.option(
-    "--seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    default=60.0,
-    show_default=True,
-    metavar="S",
-    help="How long the causes of a part are looked for.",
-)
+@seeking_causes
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @quietly
 @gathered(DiagnoseOptions, "options")

@@ -254,6 +254,21 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
     )
 
 
+def seeking_causes(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """How long causes are looked for, of every verb that does."""
+    return _with(
+        command,
+        click.option(
+            "--seconds",
+            type=click.FloatRange(min=0, min_open=True),
+            default=60.0,
+            show_default=True,
+            metavar="S",
+            help="How long the causes of a part are looked for.",
+        ),
+    )
+
+
 def reading_logs(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The argument of every verb about logs, and how they are read."""
     return _with(
