@@ -74,19 +74,22 @@ def twin(firmware: Firmware, folder: Path, effort: TwinEffort, *more: str) -> It
     if report.trouble:
         yield f"  trouble: {report.trouble}"
     yield from (f"  undecided: {text}" for text in report.undecided)
+    named = [group for group in report.groups if group.change]
+    right = matched(
+        {
+            one.id: [n for n, group in enumerate(named) if names(one, group.change)]
+            for one in firmware.differences
+        }
+    )
     for one in firmware.differences:
         group = report.groups[verdict.found[one.id]] if one.id in verdict.found else None
-        yield f"  {'told' if group else 'NOT TOLD':8} {one.id}{_tags(one)}: {group or one.says}"
+        word = "NOT TOLD" if group is None else "named" if one.id in right else "told"
+        yield f"  {word:8} {one.id}{_tags(one)}: {group or one.says}"
     yield from (f"  again    {report.groups[n]}" for n in verdict.again)
     yield from (f"  several  {report.groups[n]}" for n in verdict.mixed)
     yield from (f"  FALSE    {report.groups[n]}" for n in verdict.false)
-    named = [group for group in report.groups if group.change]
-    right = {
-        one.id: [n for n, group in enumerate(named) if names(one, group.change)]
-        for one in firmware.differences
-    }
     if named:
-        yield f"causes: {len(named)} groups have a change, {len(matched(right))} of them the one planted"
+        yield f"causes: {len(named)} groups have a change, {len(right)} of them the one planted"
 
 
 def causes(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:

@@ -1,11 +1,13 @@
 """What the charts see of a log: their inputs, step by step, as far as what they are made of is logged."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
 from rovercheck.checker.conformance.signals import Vocabulary
-from rovercheck.spec_model.abstraction.interface import Carriage, SignalView
+from rovercheck.spec_model.abstraction.interface import BoardInterface, Carriage, SignalView
+from rovercheck.spec_model.abstraction.readings import StampReading, StampsTaken
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, MeanOfTen
 from rovercheck.spec_model.lang.system import TICK_MS
 
@@ -16,6 +18,9 @@ class InputDecoder:
     """Reads the inputs of the charts off the blocks of one log, from its first."""
 
     def __init__(self, vocabulary: Vocabulary, signals: frozenset[str], from_power_up: bool) -> None:
+        taken = vocabulary.board.interface.taken
+        self._taken = _Taken(taken, from_power_up) if taken else None
+        self._records = _SharedRecords(vocabulary.board.interface, from_power_up)
         self._see: dict[str, See] = {}
         for name, sight in vocabulary.sights.items():
             if sight.signal.name in signals and (sight.how is not Carriage.AGE or NOW in signals):
@@ -28,7 +33,54 @@ class InputDecoder:
 
     def decode(self, block: LogBlock) -> dict[str, Cells]:
         """The raw values of the known inputs, row by row; ``None`` where they are not known."""
-        return {name: see(block) for name, see in self._see.items()}
+        block = block if self._taken is None else self._taken.block(block)
+        seen = {name: see(block) for name, see in self._see.items()}
+        return {**seen, **self._records.decode(block)} if self._records.views else seen
+
+
+class _Taken:
+    """Stamps as a variant of the board takes them; not known after a step or cell that was not recorded."""
+
+    def __init__(self, readings: Sequence[StampReading], from_power_up: bool) -> None:
+        self._taken = StampsTaken(readings)
+        self._known = from_power_up
+
+    def block(self, block: LogBlock) -> LogBlock:
+        """The rows with the stamps that are taken."""
+        names = [name for name in self._taken.names if name in block.values]
+        if len(names) < len(self._taken.names) or NOW not in block.values:
+            self._known = False
+        found: dict[str, Cells] = {name: [] for name in names}
+        for row, missing in enumerate(block.missing):
+            now, given = block.values[NOW][row], {name: block.values[name][row] for name in names}
+            stamps = {name: int(cell) for name, cell in given.items() if cell is not None}
+            self._known = self._known and not missing and now is not None and len(stamps) == len(names)
+            taken = self._taken.step(stamps, int(now or 0)) if self._known else {}
+            for name in names:
+                found[name].append(taken.get(name))
+        return replace(block, values={**block.values, **found})
+
+
+class _SharedRecords:
+    """Means of stamps that go into one record, one after the other in each step."""
+
+    def __init__(self, interface: BoardInterface, from_power_up: bool) -> None:
+        records = interface.records() if interface.taken else {}
+        own = [id(record) for record in records.values()]
+        every = [(v, records[v.var.name]) for v in interface.by_carriage[Carriage.SLOW] if records]
+        self.views = [(v, record) for v, record in every if own.count(id(record)) > 1]
+        self._known = from_power_up
+
+    def decode(self, block: LogBlock) -> dict[str, Cells]:
+        """Whether the means are too long; not known after a step or cell that was not recorded."""
+        found: dict[str, Cells] = {view.var.name: [] for view, _ in self.views}
+        for row, missing in enumerate(block.missing):
+            for view, record in self.views:
+                stamp = block.values[view.signal.name][row] if view.signal.name in block.values else None
+                self._known = self._known and stamp is not None and not missing
+                known = self._known and stamp is not None
+                found[view.var.name].append(int(record.step(int(stamp or 0))) if known else None)
+        return found
 
 
 def _sample(sight: SignalView, _from_power_up: bool) -> See:

@@ -3,23 +3,29 @@
 A change counts if it makes no row wrong that was right, and if with it every row of some deviation is right.
 The one that explains most is taken as given, and the next one is looked for on top of it, until nothing is
 left to explain, nothing more is found, or the time is over.
+
+Where two changes make the same rows wrong, none of them explains a deviation alone.  Then the one is taken
+that makes most right, and kept if with those found on top of it nothing is wrong that was right.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from itertools import islice
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
-from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, Grouping, whole_of
-from rovercheck.checker.conformance.mismatch import LogMismatch
-from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.change import ChartChange, Nearness
-from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence, logged_of
+from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness
+from rovercheck.checker.diagnosis.evidence import PartEvidence, logged_of
+from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
+from rovercheck.checker.diagnosis.pieces import NOT_DECIDED, Wrong, differing, rows_of, wrong_of
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
+from rovercheck.checker.diagnosis.stamp_search import StampSearch
 from rovercheck.checker.diagnosis.trial import Parameter
-from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
+from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
+from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
@@ -35,71 +41,20 @@ MORE_TIME = 1.5
 WITNESSES = 2
 """Runs in which a deviation comes first that a change must get past before all runs are tried."""
 
+MOST_BRIDGES = 3
+"""Changes that explain nothing alone on which others are put, one after the other."""
+
+MOST_PARTLY = 60
+"""Such changes that are looked at, the nearest of those met."""
+
+GAIN = 4
+"""Times as much as it makes wrong that such a change makes right."""
+
+ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
+"""Kinds of which some change makes right almost whatever is wrong."""
+
 LIKELY = 3
 """Conforming runs that have contradicted most changes, with which a change is tried first."""
-
-Wrong = Mapping[int, frozenset[tuple[str, int]]]
-"""The rows of a run that are wrong: in which outputs, of masks in which bits."""
-
-
-@dataclass(frozen=True)
-class CoveringChange:
-    """A change that contradicts nothing; all rows of what it explains are right with it, and those before."""
-
-    change: ChartChange
-    explains: frozenset[int]
-    cases: int
-    wrong: Sequence[Wrong]
-    system: System
-
-    @property
-    def rank(self) -> tuple[float, ...]:
-        """The one that explains most comes first, of those the nearest."""
-        return (-len(self.explains), -self.cases, *self.change.nearness)
-
-
-@dataclass(frozen=True)
-class Witness:
-    """A run up to the end of the first case of a deviation, which a change must explain before all is tried.
-
-    ``place`` is that of the deviation.  ``before``: how many rows differ before; ``masked``: the outputs in
-    rows with other deviations, without what differs by these.
-    """
-
-    place: int
-    number: int
-    last: int
-    before: int
-    masked: Mapping[int, Known] = field(default_factory=dict, compare=False)
-
-    @property
-    def rank(self) -> tuple[int, int, int]:
-        """Those with nothing else before, then the short ones."""
-        return (self.before, self.last, self.number)
-
-
-@dataclass
-class PartCover:
-    """What explains the deviations of one part: each change with the places of the deviations it explains.
-
-    ``tried`` changes ``of`` those that there are.
-    """
-
-    evidence: PartEvidence
-    deviations: Sequence[Deviation]
-    rows: Mapping[int, "Pieces"] = field(default_factory=dict)
-    """Of each deviation, by its place, the rows in which it is met."""
-    changes: list[tuple[ChartChange, frozenset[int]]] = field(default_factory=list)
-    left: frozenset[int] = frozenset()
-    base: Sequence["Wrong"] = ()
-    """What is still wrong with all changes, in each run of ``TrialBench``."""
-    system: System | None = None
-    """The part with all changes."""
-    tried: int = 0
-    of: int = 0
-    seconds: float = 0.0
-    late: bool = False
-    """Whether the time was over before all was tried."""
 
 
 def covered(
@@ -121,6 +76,8 @@ class _CoverSearch(HypothesisSearch):
         self._name = found.evidence.name
         self._rows = found.rows = rows_of(found.evidence, found.deviations)
         self._good: list[CoveringChange] = []
+        self._partly: list[Unexplaining] = []
+        self._bridges = 0
         self._contradictions: dict[int, int] = {}
         self._base: list[Wrong] = []
         self._left: frozenset[int] = frozenset()
@@ -132,11 +89,13 @@ class _CoverSearch(HypothesisSearch):
 
     def run(self) -> None:
         """Change upon change, while some deviation is left."""
-        self._base = [_outputs(run.wrong.get(self._name, ())) for run in self._bench.runs]
+        self._base = [wrong_of(run.wrong.get(self._name, ())) for run in self._bench.runs]
         self._left = frozenset(n for n in self._rows if self._rows[n])
         self._system = self._evidence.group.system
+        drawn = list(self._base)
+        sound = Sound(0, self._left, drawn, self._system, self._bench)
         while len(self._cover.changes) < MOST_CAUSES:
-            self._good, self._settled = [], frozenset()
+            self._good, self._partly, self._settled = [], [], frozenset()
             self._witnesses = self._first_cases()
             self._first = frozenset(w.place for w in self._witnesses if not w.before)
             self._at_power_up = any(w.last == 0 for w in self._witnesses)
@@ -146,10 +105,29 @@ class _CoverSearch(HypothesisSearch):
             self.level(self._system, ())
             if self.enough:
                 self.of = self.tried
-            if not self._good:
+            if self._good:
+                self._take(sorted(self._good, key=lambda one: one.rank))
+                self._bridges = 0
+                if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
+                    made = len(self._cover.changes)
+                    sound = Sound(made, self._left, self._base, self._system, self._bench)
+            elif self._combined():
+                made = len(self._cover.changes)
+                sound = Sound(made, self._left, self._base, self._system, self._bench)
+            elif self._bridges < MOST_BRIDGES and (bridge := self._bridge()) is not None:
+                self._bridges += 1
+                self._accept(bridge)
+            else:
                 break
-            self._take(sorted(self._good, key=lambda one: one.rank))
+        del self._cover.changes[sound.changes :]
+        self._left, self._base, self._system, self._bench = (
+            sound.left,
+            list(sound.base),
+            sound.system,
+            sound.bench,
+        )
         self._cover.left, self._cover.base, self._cover.system = self._left, self._base, self._system
+        self._cover.bench = self._bench
         self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late
 
     def _take(self, good: Sequence[CoveringChange]) -> None:
@@ -164,16 +142,39 @@ class _CoverSearch(HypothesisSearch):
             if not any(self._again(one) for one in nearest if self._clock() < self._end):
                 return
 
+    def _combined(self) -> bool:
+        """Take several readings of stamps that only together explain something, and make nothing wrong."""
+        cone = self._cone(self._system)
+        if cone is None or not any(map(self._concerned, stamp_changes(self._board, self._system, self._own))):
+            return False
+        search = StampSearch(self._bench, cone, self._system, self._base)
+        changes, wrong, bench = search.found(lambda: self._clock() > self._end)
+        if not all(new.keys() <= old.keys() for old, new in zip(self._base, wrong, strict=True)):
+            return False
+        explains = frozenset(n for n in self._left if self._explained(n, wrong))
+        if not changes or not explains:
+            return False
+        self._cover.changes += [(change, frozenset[int]()) for change in changes[:-1]]
+        self._accept(CoveringChange(changes[-1], explains, 0, wrong, self._system))
+        self._bench = bench
+        return True
+
+    @property
+    def _own(self) -> frozenset[str]:
+        return frozenset(part.name for part in parts(self._system.components))
+
     def _again(self, one: CoveringChange) -> bool:
         """Take a change on top of those taken before, if it still does what it did alone."""
-        board, change = self._evidence.group.board, one.change
+        change = one.change
         try:
-            system = with_change(board, self._system, WrittenChange(*change.key))
+            system = found_change(self._board, self._system, WrittenChange(*change.key)).make()
         except ModelError:
             return False
         cone = self._cone(system)
         concerned = self._concerned(change)
+        bench, self._bench = self._bench, self._bench.with_reading(change.reading)
         wrong = None if cone is None else self._wrong_with(cone, None, concerned)
+        self._bench = bench
         if wrong is None:
             return False
         explains = frozenset(n for n in concerned if self._explained(n, wrong))
@@ -185,6 +186,7 @@ class _CoverSearch(HypothesisSearch):
         self._cover.changes.append((one.change, one.explains & self._left))
         self._left -= one.explains
         self._base, self._system = list(one.wrong), one.system
+        self._bench = self._bench.with_reading(one.change.reading)
 
     def order(self, change: ChartChange) -> Nearness:
         """Initial values first, where something differs in the first step of a run."""
@@ -272,10 +274,10 @@ class _CoverSearch(HypothesisSearch):
         if not any(self._passed(cone, one, parameter) for one in witnesses):
             return False
         wrong = self._wrong_with(cone, parameter, concerned)
-        if wrong is None:
-            return False
-        explains = frozenset(n for n in concerned if self._explained(n, wrong))
-        if not explains:
+        explains = frozenset(n for n in concerned if wrong is not None and self._explained(n, wrong))
+        if wrong is None or not explains:
+            if made.kind not in ANYWHERE:
+                self._partly.append(Unexplaining(made, cone, parameter, self._bench, system))
             return False
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
@@ -285,6 +287,39 @@ class _CoverSearch(HypothesisSearch):
             self._settled |= concerned
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
+
+    def _bridge(self) -> CoveringChange | None:
+        """Of changes that explain nothing wholly the one that makes most right, and little wrong."""
+        found: list[tuple[int, CoveringChange]] = []
+        for one in sorted(self._partly, key=lambda one: one.change.nearness)[:MOST_PARTLY]:
+            if self._clock() > self._end:
+                break
+            bench, self._bench = self._bench, one.bench
+            wrong = self._mostly_right(one.cone, one.parameter)
+            self._bench = bench
+            if wrong is not None:
+                gain = _more(self._base, wrong) - GAIN * _more(wrong, self._base)
+                explains = frozenset(n for n in self._concerned(one.change) if self._explained(n, wrong))
+                if gain > 0:
+                    system = one.system or one.change.make()
+                    found.append((gain, CoveringChange(one.change, explains, gain, wrong, system)))
+        return max(found, key=lambda one: one[0], default=(0, None))[1]
+
+    def _mostly_right(self, cone: LogCone, parameter: Parameter | None) -> list[Wrong] | None:
+        """What is wrong with a changed part in each run; ``None`` if something is earlier than before."""
+        found: list[Wrong] = [{} for _ in self._base]
+        for number in self._order():
+            base = self._base[number]
+            if not base:
+                wrong = not self._bench.passes(cone, number, None, parameter)
+            else:
+                rows = self._rows_of(cone, number, parameter, base)
+                found[number] = dict(rows)
+                wrong = min(found[number], default=len(self._bench.runs[number])) < min(base)
+            if wrong:
+                self._contradictions[number] = self._contradictions.get(number, 0) + 1
+                return None
+        return found
 
     def _wrong_with(
         self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int]
@@ -321,11 +356,18 @@ class _CoverSearch(HypothesisSearch):
         self, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
     ) -> Wrong | None:
         found: dict[int, frozenset[tuple[str, int]]] = {}
-        for row, mismatch in self._bench.mismatches(cone, number, parameter):
+        for row, wrong in self._rows_of(cone, number, parameter, base):
             if row not in base:
                 return None
-            found[row] = base[row] if mismatch is None else differing(mismatch)
+            found[row] = wrong
         return found
+
+    def _rows_of(
+        self, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
+    ) -> Iterator[tuple[int, frozenset[tuple[str, int]]]]:
+        """The rows that are wrong with a changed part; one that is not decided is as wrong as before."""
+        for row, mismatch in self._bench.mismatches(cone, number, parameter):
+            yield row, base.get(row, NOT_DECIDED) if mismatch is None else differing(mismatch)
 
     def _explained(self, place: int, wrong: Sequence[Wrong]) -> bool:
         """Whether all rows of a deviation are right, as far as they are its own."""
@@ -338,50 +380,10 @@ class _CoverSearch(HypothesisSearch):
         return any(pieces & own.get((run, row), frozenset()) for row, pieces in wrong.items())
 
 
-Pieces = dict[tuple[int, int], frozenset[tuple[str, int]]]
+def _more(one: Sequence[Wrong], other: Sequence[Wrong]) -> int:
+    """How much is wrong in one that is right in the other, in outputs of all rows."""
+    pairs = zip(one, other, strict=True)
+    return sum(len(own - there.get(row, frozenset())) for here, there in pairs for row, own in here.items())
 
 
-def rows_of(evidence: PartEvidence, deviations: Sequence[Deviation]) -> dict[int, Pieces]:
-    """For each deviation, by its place, the rows of the runs in which it is, and what differs there.
-
-    Numbers that follow from a discrete output are left out: they may differ for a reason of their own, too.
-    """
-    found: dict[int, Pieces] = {n: {} for n, one in enumerate(deviations)}
-    places: dict[tuple[DeviationScope, tuple[str, ...]], int | None] = {}
-    for run in evidence.deviating:
-        rows = {tick: row for row, tick in enumerate(run.ticks)}
-        for mismatch, scope in _told(run, evidence.name):
-            key = scope, mismatch.outputs
-            if key not in places:
-                whole = whole_of(deviations, scope, mismatch.outputs)
-                places[key] = next((n for n, one in enumerate(deviations) if one is whole), None)
-            place = places[key]
-            if place is not None:
-                at = id(run), rows[mismatch.tick]
-                own = {piece for piece in differing(mismatch) if piece[0] in scope.outputs}
-                found[place][at] = found[place].get(at, frozenset()) | own
-    return found
-
-
-def _told(run: DecodedRun, part: str) -> Iterator[tuple[LogMismatch, DeviationScope]]:
-    """The pieces of the mismatches of a part, with the scopes of their groups."""
-    told: list[tuple[LogMismatch, DeviationScope]] = []
-    grouping = Grouping(may_freeze=False)
-    grouping.told = lambda mismatch, scope: told.append((mismatch, scope))
-    wrong = dict(run.wrong[part])
-    for row in sorted({*wrong, *(row + 1 for row in wrong)}):
-        if row < len(run):
-            grouping.tick(run.ticks[row], [wrong[row]] if row in wrong else [], True)
-    grouping.end()
-    yield from told
-
-
-def _outputs(wrong: Sequence[tuple[int, LogMismatch]]) -> Wrong:
-    return {row: differing(mismatch) for row, mismatch in wrong}
-
-
-def differing(mismatch: LogMismatch) -> frozenset[tuple[str, int]]:
-    return frozenset((d.output.name, d.bit) for one in mismatch.differences for d in one.each_bit())
-
-
-__all__ = ["PartCover", "Pieces", "Wrong", "covered", "differing", "rows_of"]
+__all__ = ["covered"]

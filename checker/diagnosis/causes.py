@@ -1,13 +1,15 @@
 """Deviations grouped by cause: those that one change of the charts explains, or that evidence joins."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.recording import Recording
-from rovercheck.checker.diagnosis.cause_cover import PartCover, covered
+from rovercheck.checker.diagnosis.attribution import attributed
+from rovercheck.checker.diagnosis.cause_cover import covered
 from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
 from rovercheck.spec_model.abstraction import Board
@@ -15,12 +17,13 @@ from rovercheck.spec_model.abstraction import Board
 
 @dataclass(frozen=True)
 class DeviationCause:
-    """Deviations of one cause, each in no other one, those that were met in most runs first.
+    """Deviations of one cause, those that were met in most runs first.
 
-    ``change`` explains them.  Where it is ``None``, other values of an ``input`` do, told with the stamp that
-    the implementation computes it from; where that is empty, too, nothing does.  ``alone``: whether
-    the changes found in the part explain everything that it does otherwise.  ``runs`` and ``ticks`` are
-    those in which some of them is met.
+    Each is in no other cause, unless it takes two together.  ``change`` explains them; a stamp that is taken
+    otherwise may show in several parts, and they are deviations of all of these.  Where it is ``None``, other
+    values of an ``input`` do, told with the stamp that the implementation computes it from; where that is
+    empty, too, nothing does.  ``alone``: whether the changes found in the part explain everything that it
+    does otherwise.  ``runs`` and ``ticks`` are those in which some of them is met in one part.
     """
 
     part: str
@@ -35,6 +38,11 @@ class DeviationCause:
     def first(self) -> Deviation:
         """The one that is told in full."""
         return self.deviations[0]
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The parts that deviate."""
+        return tuple(dict.fromkeys((self.part, *(d.scope.part for d in self.deviations))))
 
     def id(self, board: str) -> str:
         """A short name: that of the change, or of the first deviation."""
@@ -125,7 +133,7 @@ def cause_groups(
         explained = frozenset[int]().union(*(places for _, places in cover.changes))
         made = tuple(change for change, _ in cover.changes)
         changes.append(PartChanges(part.name, made, _at(cover, explained)))
-    causes = [one for some in found.values() for one in some]
+    causes = list(_together(one for some in found.values() for one in some))
     told = {id(d) for one in causes for d in one.deviations}
     causes += [_alone(d) for d in deviations if id(d) not in told]
     places = {id(d): place for place, d in enumerate(deviations)}
@@ -137,7 +145,7 @@ def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
     """The causes of a part: its changes, then inputs that are read otherwise."""
     found = [
         DeviationCause(part.name, change, _at(cover, places), not any(cover.base))
-        for change, places in cover.changes
+        for change, places in attributed(cover)
         if places
     ]
     for name, places in explained_by_inputs(cover):
@@ -145,6 +153,24 @@ def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
         found.append(DeviationCause(part.name, None, _at(cover, places), False, told))
     keys = {id(one): set(cover.rows[n]) for n, one in enumerate(cover.deviations)}
     return [_counted(one, keys) for one in found]
+
+
+def _together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
+    """A stamp that is taken otherwise once, with all parts that show it."""
+    found: dict[object, list[DeviationCause]] = {}
+    for one in causes:
+        reading = None if one.change is None else one.change.reading
+        found.setdefault(id(one) if reading is None else reading, []).append(one)
+    for first, *more in found.values():
+        every = [first, *more]
+        deviations = dict((id(d), d) for one in every for d in one.deviations)
+        yield replace(
+            first,
+            deviations=tuple(deviations.values()),
+            alone=all(one.alone for one in every),
+            runs=max(one.runs for one in every),
+            ticks=max(one.ticks for one in every),
+        )
 
 
 def _at(cover: PartCover, places: Iterable[int]) -> tuple[Deviation, ...]:

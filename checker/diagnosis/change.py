@@ -5,13 +5,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from rovercheck.spec_model.abstraction.readings import StampReading
 from rovercheck.spec_model.lang.system import System
 
 ChangeKind = Literal[
     "interpretation", "repair", "limit", "constant", "comparison", "timer", "bit", "member", "value",
     "target", "order", "joined", "negated", "dropped", "missing", "always", "never", "operands", "signal",
-    "exchanged", "initial", "late", "stale", "held", "frozen", "unread", "shared", "enabled", "dead",
-    "extra",
+    "exchanged", "initial", "late", "stale", "held", "frozen", "unread", "shared", "stamp", "enabled",
+    "dead", "extra",
 ]  # fmt: skip
 
 KINDS: dict[str, str] = {
@@ -42,6 +43,7 @@ KINDS: dict[str, str] = {
     "frozen": "an input read once",
     "unread": "an input that is not read",
     "shared": "shared memory",
+    "stamp": "a time stamp taken otherwise",
     "enabled": "executed also when not enabled",
     "dead": "never executed",
     "extra": "an extra transition",
@@ -51,7 +53,7 @@ KINDS: dict[str, str] = {
 TIERS: dict[str, float] = {
     "interpretation": 0, "repair": 1, "comparison": 2, "limit": 2, "timer": 2, "constant": 3,
     "joined": 3.1, "dropped": 3.2, "order": 3.2, "target": 3.3, "never": 3.4, "missing": 3.4, "always": 3.6,
-    "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "signal": 5, "shared": 5,
+    "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "signal": 5, "shared": 5, "stamp": 5,
     "initial": 6, "held": 6, "unread": 6, "enabled": 6, "frozen": 7, "dead": 7, "extra": 8,
 }  # fmt: skip
 """How near a kind of change lies to the charts; 3 where nothing is said."""
@@ -66,8 +68,8 @@ def place_text(at: str) -> str:
 
     Sites that are written otherwise stay as they are.
     """
-    if at.startswith("signal/"):
-        return f"of {at.removeprefix('signal/')}"
+    if at.startswith(("signal/", "stamp/")):
+        return f"of {at.partition('/')[2]}"
     site, _, role = at.partition(" ")
     found = _SITE.fullmatch(site)
     if site == "everywhere" and role:
@@ -85,10 +87,11 @@ def place_text(at: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class ChartChange:
-    """One change of one chart or block.
+    """One change of one chart or block, or of how a stamp is taken that it reads.
 
     ``at`` is where, as ids of mutants say it; ``old`` and ``new`` are what stands there as drawn and as
-    changed.  ``make`` makes the changed system.
+    changed.  ``make`` makes the changed system.  ``reading``: how a stamp is taken otherwise, with a system
+    that is as it was; ``inputs``: those of its inputs that are made of the stamp.
     """
 
     kind: ChangeKind
@@ -102,6 +105,8 @@ class ChartChange:
     """Among changes of one kind: how far from what is drawn."""
     note: str = ""
     """What else would do."""
+    reading: StampReading | None = None
+    inputs: tuple[str, ...] = ()
 
     @property
     def key(self) -> tuple[str, ...]:

@@ -99,8 +99,8 @@ class RunSearch:
                 for k, cone in enumerate(self._cones):
                     try:
                         states[k], out = cone.step(states[k], given[k])
-                    except NeededInputs:
-                        return None
+                    except (NeededInputs, TypeError, ValueError, ZeroDivisionError):
+                        return None  # not known; bits of a fraction or of -1, a division by 0
                     outputs.append(dict(zip((o.name for o in cone.outputs), out, strict=True)))
                 if outputs[0] != outputs[1] and self._apart(*outputs):
                     self._last = outputs
@@ -184,7 +184,8 @@ class RunSearch:
             found.update(dict.fromkeys(cells[:50]))
         if isinstance(v.domain.sort, Num):
             low, high = v.domain.low, v.domain.high
-            found = {x: None for x in found if low <= x <= high}
+            whole = v.domain.sort.resolution == 1
+            found = {x: None for x in found if low <= x <= high and (isinstance(x, int) or not whole)}
         return list(found) or [v.init]
 
 

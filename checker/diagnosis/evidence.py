@@ -12,6 +12,11 @@ from rovercheck.checker.conformance.recording import Cells, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.board import made_of, with_readings
+from rovercheck.spec_model.abstraction.readings import StampReading
+from rovercheck.spec_model.abstraction.stamps import NOW
+
+NONE: Mapping[str, Cells] = {}
 
 Options = dict[str, dict[int, tuple[Raw | None, ...]]]
 """The values that an input may have had, by its name and the row."""
@@ -169,11 +174,11 @@ def logged_of(cone: LogCone, run: DecodedRun) -> list[Known]:
     return list(zip(*columns, strict=True)) if columns else [()] * len(run)
 
 
-def inputs_of(cone: LogCone, run: DecodedRun) -> list[Known]:
-    """The inputs of a part, row by row, as they were recorded."""
+def inputs_of(cone: LogCone, run: DecodedRun, otherwise: Mapping[str, Cells] = NONE) -> list[Known]:
+    """The inputs of a part, row by row, as they were recorded; ``otherwise``: others in their place."""
     columns: list[Sequence[Raw | None]] = []
     for var in cone.system.inputs:
-        cells = run.columns.get(var.name) or [None] * len(run)
+        cells = otherwise.get(var.name) or run.columns.get(var.name) or [None] * len(run)
         if var.name in cone.before:
             first = var.init if run.run.from_power_up else None
             cells = [first, *cells[:-1]]
@@ -181,6 +186,22 @@ def inputs_of(cone: LogCone, run: DecodedRun) -> list[Known]:
     return list(zip(*columns, strict=True)) if columns else [()] * len(run)
 
 
+def taken_otherwise(board: Board, run: DecodedRun, readings: Sequence[StampReading]) -> dict[str, Cells]:
+    """What the charts would see of the stamps of a run, if an implementation takes them otherwise."""
+    found: dict[str, Cells] = {}
+    if readings:
+        variant = with_readings(board, readings)
+        stamps = {NOW, *(name for one in readings for name in (one.stamp, one.other))}
+        decoder = InputDecoder(Vocabulary(variant), run.run.signals & stamps, run.run.from_power_up)
+        names = {name for one in readings for name in made_of(board, one)}
+        for block in run.run.blocks():
+            for name, cells in decoder.decode(block).items():
+                if name in names:
+                    found.setdefault(name, []).extend(cells)
+    return found
+
+
 __all__ = [
     "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "inputs_of", "logged_of",
+    "taken_otherwise",
 ]  # fmt: skip

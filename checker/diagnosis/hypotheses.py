@@ -18,7 +18,10 @@ from rovercheck.checker.mutate.rewrites import (
 )
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.board import made_of
 from rovercheck.spec_model.abstraction.boards import BOARDS, RECORDED
+from rovercheck.spec_model.abstraction.interface import Carriage
+from rovercheck.spec_model.abstraction.readings import readings_of
 from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.interpretations import Alternative, alternatives, name_of
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
@@ -149,6 +152,21 @@ def _told(one: Delay) -> str:
             return f"{one.signal} is not read: {one.new}"
 
 
+def stamp_changes(board: Board, system: System, only: frozenset[str]) -> Iterator[ChartChange]:
+    """Every other way to take a stamp that a part reads, as it is handed to the charts."""
+    recorded = [v.signal.name for v in board.interface.by_carriage[Carriage.SLOW]]
+    stamps = dict.fromkeys(v.signal.name for v in board.interface.views if v.how is not Carriage.SAMPLE)
+    for part in parts(system.components):
+        if part.name in only:
+            for number, one in enumerate(r for stamp in stamps for r in readings_of(stamp, recorded)):
+                inputs = tuple(name for name in made_of(board, one) if name in part.read)
+                if inputs:
+                    yield ChartChange(
+                        "shared" if one.other else "stamp", part.name, f"stamp/{one.stamp}", "as it is given",
+                        one.how, one.text, lambda: system, number / 1e3, reading=one, inputs=inputs,
+                    )  # fmt: skip
+
+
 def extra_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:
     """Transitions that are not drawn, under conditions that the chart knows."""
     for part in parts(system.components):
@@ -248,6 +266,6 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 
 __all__ = [
-    "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of", "timer_changes",
-    "written_changes",
+    "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of", "stamp_changes",
+    "timer_changes", "written_changes",
 ]  # fmt: skip

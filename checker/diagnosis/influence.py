@@ -109,6 +109,8 @@ class ChangeInfluence:
         controls = self._controls.get(change.chart)
         if controls is None or change.kind in ("interpretation", "repair", "order"):
             return self._nodes
+        if change.inputs:
+            return change.inputs
         if change.kind == "shared":
             return [n for n in self._nodes if n.startswith((change.old, change.new))]
         if change.at == EVERYWHERE and len(controls) > 1:

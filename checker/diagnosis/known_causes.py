@@ -1,16 +1,16 @@
 """Whether the changes that explained known deviations still do: a fault on top may look like one of them."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
-from rovercheck.checker.diagnosis.cause_cover import differing, rows_of
 from rovercheck.checker.diagnosis.causes import PartChanges
 from rovercheck.checker.diagnosis.evidence import DecodedRun, Evidence, PartEvidence
+from rovercheck.checker.diagnosis.pieces import differing, rows_of
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
 from rovercheck.spec_model.abstraction import Board
-from rovercheck.spec_model.lang.system import System
 
 
 def no_longer_explained(
@@ -48,9 +48,10 @@ def _left(
 
     All of them, where a step is wrong that is right without the changes.
     """
-    cone = part.group.cone(changed(board, part.group.system, cause))
+    variant = changed(replace(board, system=part.group.system), cause)
+    cone = part.group.cone(variant.system)
     rows = rows_of(part, deviations)
-    bench = TrialBench(part)
+    bench = TrialBench(part, variant.interface.taken[len(board.interface.taken) :])
     for number, run in enumerate(bench.runs):
         end = min((row for n in range(own, len(deviations)) for row in _of(run, rows[n])), default=len(run))
         base = {row for row, _ in run.wrong.get(part.name, ())}
@@ -72,11 +73,11 @@ def _of(run: DecodedRun, rows: Iterable[tuple[int, int]]) -> Iterator[int]:
     return (row for number, row in rows if number == id(run))
 
 
-def changed(board: Board, system: System, cause: KnownCause) -> System:
-    """The charts, or some of them, with the changes of a cause.  Raises ``ModelError``."""
+def changed(board: Board, cause: KnownCause) -> Board:
+    """A board, or some of its charts, with the changes of a cause.  Raises ``ModelError``."""
     for change in cause.changes:
-        system = with_change(board, system, WrittenChange(*change))
-    return system
+        board = with_change(board, WrittenChange(*change))
+    return board
 
 
 def causes_to_keep(

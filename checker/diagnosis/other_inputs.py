@@ -7,9 +7,10 @@ are sampled are not asked about: with any other value of them almost everything 
 from collections.abc import Iterator, Mapping, Sequence
 
 from rovercheck.checker.conformance.cones import LogCone
-from rovercheck.checker.diagnosis.cause_cover import PartCover, Pieces, Wrong, differing
+from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
+from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, differing
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction.interface import Carriage
 from rovercheck.spec_model.lang.errors import ModelError
@@ -31,7 +32,9 @@ def explained_by_inputs(cover: PartCover) -> list[tuple[str, frozenset[int]]]:
     for name in names:
         outputs = influence.of_data(name)
         own = {n: rows for n, rows in left.items() if outputs.issuperset(cover.deviations[n].scope.outputs)}
-        every.append((name, frozenset(_explained(part, cone, name, own, cover.base))))
+        every.append(
+            (name, frozenset(_explained(cover.bench or TrialBench(part), cone, name, own, cover.base)))
+        )
     found: list[tuple[str, frozenset[int]]] = []
     told = frozenset[int]()
     for name, places in sorted(every, key=lambda one: -len(one[1])):
@@ -53,9 +56,8 @@ def _computed(part: PartEvidence, cone: LogCone) -> list[str]:
 
 
 def _explained(
-    part: PartEvidence, cone: LogCone, name: str, left: Mapping[int, Pieces], base: Sequence[Wrong]
+    bench: TrialBench, cone: LogCone, name: str, left: Mapping[int, Pieces], base: Sequence[Wrong]
 ) -> Iterator[int]:
-    bench = TrialBench(part)
     numbers = {id(run): number for number, run in enumerate(bench.runs)}
     concerned = {numbers[run] for pieces in left.values() for run, _ in pieces}
     wrong: dict[int, Wrong | None] = {}

@@ -1,13 +1,14 @@
 """Causes of a board's deviations over all of its recordings, each once, with what would tell two apart."""
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.search import SECONDS, ExplainingCause, PartDiagnosis, diagnosed
 from rovercheck.checker.diagnosis.trial import TrialBench
+from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -119,13 +120,17 @@ def _together(diagnoses: Sequence[PartDiagnosis]) -> list[list[PartDiagnosis]]:
 
 def _explains(cause: ExplainingCause, other: PartDiagnosis) -> bool:
     """Whether a cause explains the recordings of another diagnosis of the part, too."""
-    evidence = other.evidence
+    evidence, group = other.evidence, other.evidence.group
+    taken = len(group.board.interface.taken)
+    board = replace(group.board, system=group.system)
     try:
-        cone = evidence.group.cone(cause.system)
-    except (ModelError, StopIteration):
-        return False
-    same = len(cone.outputs) == len(evidence.cone.outputs)
-    return same and TrialBench(evidence).rejected(cone) is None
+        for change in cause.changes:
+            board = with_change(board, WrittenChange(*change.key))
+        cone = group.cone(board.system)
+        same = len(cone.outputs) == len(evidence.cone.outputs)
+        return same and TrialBench(evidence, board.interface.taken[taken:]).rejected(cone) is None
+    except (ModelError, StopIteration, TypeError, ValueError, ZeroDivisionError):
+        return False  # it has no meaning there; bits of a fraction or of -1, a division by 0
 
 
 def _told(name: str, group: Sequence[PartDiagnosis], deciding: bool) -> DiagnosedPart:

@@ -22,11 +22,14 @@ from rovercheck.checker.diagnosis.hypotheses import (
     mutant_changes,
     rewrite_changes,
     signals_of,
+    stamp_changes,
     timer_changes,
     written_changes,
 )
 from rovercheck.checker.diagnosis.limits import PARAMETER, MetValues, NumberSlot, number_slots, values_of
 from rovercheck.checker.diagnosis.trial import Parameter, Trial, TrialBench
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.board import with_readings
 from rovercheck.spec_model.abstraction.signals import whole
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Num
@@ -176,7 +179,13 @@ class HypothesisSearch(ABC):
         found += rewrite_changes(system, self._signals(), only)
         outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
         found += delay_changes(system, only, outputs)
+        found += stamp_changes(self._board, system, only)
         return found
+
+    @property
+    def _board(self) -> Board:
+        """The board with the stamps as they are taken so far."""
+        return with_readings(self._evidence.group.board, self._bench.readings)
 
     def _signals(self) -> dict[str, Var]:
         """What the part might read by mistake, as far as it is recorded."""
@@ -215,7 +224,10 @@ class HypothesisSearch(ABC):
             return
         cone = self._cone(system)
         if cone is not None:
+            bench = self._bench
+            self._bench = bench.with_reading(change.reading)
             self.judge(cone, lambda: change, before, system)
+            self._bench = bench
 
     # --- limits ---
 
@@ -280,6 +292,8 @@ class _Search(HypothesisSearch):
                 break
             self._some = []
             for base in bases:
+                readings = [c.reading for c in base.changes if c.reading is not None]
+                self._bench = TrialBench(self._evidence, readings)
                 self.level(base.system, base.changes)
                 if self._found.causes:
                     break

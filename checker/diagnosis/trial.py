@@ -10,7 +10,14 @@ from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.program import BeliefOutcome, Known, NeededInputs, Step
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
-from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence, inputs_of, logged_of
+from rovercheck.checker.diagnosis.evidence import (
+    DecodedRun,
+    PartEvidence,
+    inputs_of,
+    logged_of,
+    taken_otherwise,
+)
+from rovercheck.spec_model.abstraction.readings import StampReading
 
 MOST_STATES = 64
 """States that are followed side by side before the tracker takes over."""
@@ -40,10 +47,13 @@ class Trial:
 
 
 class TrialBench:
-    """Tries changes of one part; the rows are prepared once for all that read the same."""
+    """Tries changes of one part; the rows are prepared once for all that read the same.
 
-    def __init__(self, evidence: PartEvidence) -> None:
-        self.evidence = evidence
+    ``readings``: stamps that are taken otherwise than the board does.
+    """
+
+    def __init__(self, evidence: PartEvidence, readings: Sequence[StampReading] = ()) -> None:
+        self.evidence, self.readings = evidence, tuple(readings)
         deviating = evidence.deviating
         firsts = {id(run): run.cases(evidence.name)[0].first for run in deviating}
         self.runs = sorted(evidence.runs, key=lambda run: firsts.get(id(run), 10**9 + len(run)))
@@ -51,6 +61,10 @@ class TrialBench:
         self._first = [firsts.get(id(run)) for run in self.runs]
         self._order = list(range(len(self.runs)))
         self._rows: dict[tuple[object, ...], list[Rows | None]] = {}
+
+    def with_reading(self, reading: StampReading | None) -> "TrialBench":
+        """The same with one more stamp taken otherwise."""
+        return self if reading is None else TrialBench(self.evidence, (*self.readings, reading))
 
     def rejected(self, cone: LogCone, parameter: Parameter | None = None) -> tuple[int, int] | None:
         """The run and the row of a first contradiction; ``None``: every row of every run is explained.
@@ -125,7 +139,8 @@ class TrialBench:
         found = rows[number]
         if found is None:
             run = self.runs[number]
-            plain, logged = inputs_of(cone, run), logged_of(cone, run)
+            plain = inputs_of(cone, run, taken_otherwise(self.evidence.group.board, run, self.readings))
+            logged = logged_of(cone, run)
             given: list[tuple[Known, ...]] = [(one,) for one in plain]
             options = run.options.get(self.evidence.name, {})
             for place, var in enumerate(cone.system.inputs):

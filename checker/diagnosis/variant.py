@@ -14,11 +14,13 @@ from rovercheck.checker.diagnosis.hypotheses import (
     mutant_changes,
     rewrite_changes,
     signals_of,
+    stamp_changes,
     timer_changes,
     written_changes,
 )
 from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.board import with_readings
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.operators import Op
@@ -96,18 +98,27 @@ def applied(board: Board, variant: BoardVariant, file: str = "the variant") -> B
     """The board with the changes of a variant.  Raises ``VariantError`` for one that does not fit."""
     if variant.board != board.name:
         raise VariantError(f"{file}: it is a variant of {variant.board}, and not of {board.name}.")
-    system = board.system
     for number, change in enumerate(variant.changes, 1):
         try:
-            system = with_change(board, system, change)
+            board = with_change(board, change)
         except ModelError as error:
             where = f"{file}, change {number} ({change.kind} in {change.chart})"
             raise VariantError(f"{where}: {error}") from error
-    return replace(board, system=system)
+    return board
 
 
-def with_change(board: Board, system: System, change: WrittenChange) -> System:
-    """The charts, or some of them, with one more change.  Raises ``ModelError`` for one that does not fit."""
+def with_change(board: Board, change: WrittenChange) -> Board:
+    """The board with one more change.  Raises ``ModelError`` for one that does not fit."""
+    made = found_change(board, board.system, change)
+    readings = [] if made.reading is None else [made.reading]
+    return with_readings(replace(board, system=made.make()), readings)
+
+
+def found_change(board: Board, system: System, change: WrittenChange) -> ChartChange:
+    """The change of the charts, or of some of them, that is written.
+
+    Raises ``ModelError`` for one that does not fit.
+    """
     if change.kind not in KINDS:
         raise ModelError(f"there is no kind {change.kind!r}. {did_you_mean(change.kind, KINDS)}")
     names = [part.name for part in parts(system.components)]
@@ -117,7 +128,7 @@ def with_change(board: Board, system: System, change: WrittenChange) -> System:
     there: list[str] = []
     for one in _like(board, system, change):
         if one.key == change.key:
-            return one.make()
+            return one
         if one.at == change.at and one.chart == change.chart:
             there.append(one.old)
     if not there:
@@ -148,6 +159,10 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
             yield from written_changes(board, system)
         case "late" | "stale" | "held" | "frozen" | "unread":
             yield from delay_changes(system, only)
+        case "stamp":
+            yield from stamp_changes(board, system, only)
+        case "shared" if change.at.startswith("stamp/"):
+            yield from stamp_changes(board, system, only)
         case "extra":
             yield from extra_changes(system, only)
         case _:
@@ -179,5 +194,6 @@ def _steps(system: System, text: str) -> list[int]:
 
 
 __all__ = [
-    "BoardVariant", "VariantError", "WrittenChange", "applied", "read_variant", "with_change", "written",
+    "BoardVariant", "VariantError", "WrittenChange", "applied", "found_change", "read_variant", "with_change",
+    "written",
 ]  # fmt: skip

@@ -4,11 +4,17 @@ A number of a snapshot enters the charts as it was measured, exactly, whether or
 representative values of the model; a time stamp enters as an age and as an update.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rovercheck.spec_model.abstraction.interface import BoardInterface, InterfaceReader, InterfaceWriter
+from rovercheck.spec_model.abstraction.interface import (
+    BoardInterface,
+    Carriage,
+    InterfaceReader,
+    InterfaceWriter,
+)
+from rovercheck.spec_model.abstraction.readings import StampReading
 from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Value, computed, whole
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.system import System
@@ -66,6 +72,28 @@ class Board:
         """The concrete inputs of a run of any system that has this board's environment, tick by tick."""
         writer = self.writer()
         return (writer.step(at) for at in model)
+
+
+def with_readings(board: Board, readings: Iterable[StampReading]) -> Board:
+    """The board with stamps taken otherwise."""
+    interface = board.interface
+    return replace(board, interface=replace(interface, taken=(*interface.taken, *readings)))
+
+
+def made_of(board: Board, reading: StampReading) -> tuple[str, ...]:
+    """The variables of the charts that are otherwise if a stamp is: all that are made of it.
+
+    Those are what tells of the means, too, of all stamps that go into one record with it.
+    """
+    shared = [{one.stamp, one.other} for one in (*board.interface.taken, reading) if one.other]
+    together = set[str]().union(*(pair for pair in shared if reading.stamp in pair))
+    stamps = () if reading.other else (reading.stamp,)
+    return tuple(
+        v.var.name
+        for v in board.interface.views
+        if v.how is not Carriage.SAMPLE
+        and (v.signal.name in stamps or (v.how is Carriage.SLOW and v.signal.name in together))
+    )
 
 
 def in_steps_of(board: Board, system: System, at: Mapping[str, int]) -> dict[str, int]:

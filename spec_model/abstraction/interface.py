@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
+from rovercheck.spec_model.abstraction.readings import StampReading, StampsTaken
 from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Value, Values, computed, units
 from rovercheck.spec_model.abstraction.stamps import NOW, MeanOfTen, Stamp, Updates, age, since
 from rovercheck.spec_model.environment.jitter import step_ms
@@ -121,10 +122,14 @@ class SignalView:
 
 @dataclass(frozen=True)
 class BoardInterface:
-    """The rows of a board, in the order in which inputs and outputs are shown."""
+    """The rows of a board, in the order in which inputs and outputs are shown.
+
+    ``taken``: stamps that a variant of the board takes otherwise.
+    """
 
     inputs: tuple[InputRow, ...]
     outputs: tuple[OutputRow, ...]
+    taken: tuple[StampReading, ...] = ()
 
     @cached_property
     def views(self) -> tuple[SignalView, ...]:
@@ -141,6 +146,16 @@ class BoardInterface:
     def by_carriage(self) -> Mapping[Carriage, tuple[SignalView, ...]]:
         """What the charts see in each way."""
         return {how: tuple(v for v in self.views if v.how is how) for how in Carriage}
+
+    def records(self) -> dict[str, MeanOfTen]:
+        """The records of intervals by the variable that tells of them, each new, or one for two."""
+        views = {v.signal.name: v for v in self.by_carriage[Carriage.SLOW]}
+        found = {v.var.name: MeanOfTen(v.mean_ms) for v in views.values()}
+        for one in self.taken:
+            if one.other:
+                first, second = views[one.other], views[one.stamp]
+                found[first.var.name] = found[second.var.name] = MeanOfTen(first.mean_ms, one.bits)
+        return found
 
     def __deepcopy__(self, memo: object) -> "BoardInterface":
         """Readers that are copied share their table."""
@@ -180,11 +195,14 @@ class InterfaceReader:
         by = interface.by_carriage
         self._advances = {v.var.name: Updates() for v in by[Carriage.ADVANCE]}
         self._updates = {v.var.name: Updates() for v in by[Carriage.UPDATE]}
-        self._means = {v.var.name: MeanOfTen(v.mean_ms) for v in by[Carriage.SLOW]}
+        self._taken = StampsTaken(interface.taken)
+        self._means = interface.records()
 
     def step(self, inputs: Values) -> dict[str, int]:
         """Raw inputs of the charts.  Raises ``ModelError`` for a value that the charts give no meaning to."""
         now, by = int(inputs[NOW]), self._interface.by_carriage
+        if names := self._taken.names:
+            inputs = {**inputs, **self._taken.step({name: int(inputs[name]) for name in names}, now)}
         at = {v.var.name: v.signal.raw(inputs[v.signal.name]) for v in by[Carriage.SAMPLE]}
         for v in by[Carriage.AGE]:
             at[v.var.name] = age(now, int(inputs[v.signal.name]))

@@ -41,8 +41,9 @@ class MeanOfTen:
     count (S35) and of several updates between two steps only the last is seen (S36).
     """
 
-    def __init__(self, mean_ms: int) -> None:
-        self._total = 10 * mean_ms
+    def __init__(self, mean_ms: int, bits: int = 0) -> None:
+        """``bits``: in how many bits the intervals are added up; 0: in as many as they need."""
+        self._total, self._limit = 10 * mean_ms, 1 << bits if bits else 0
         self._updates = Updates()
         self._latest: int | None = None
         self._intervals: deque[int] = deque(maxlen=10)
@@ -53,7 +54,9 @@ class MeanOfTen:
             if self._latest is not None:
                 self._intervals.append(since(stamp, self._latest))
             self._latest = stamp
-        return len(self._intervals) == 10 and sum(self._intervals) > self._total
+        total = sum(self._intervals)
+        total = total % self._limit if self._limit else total
+        return len(self._intervals) == 10 and total > self._total
 
 
 class Stamp:

@@ -6,11 +6,13 @@ from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause
-from rovercheck.checker.diagnosis.sentences import behaves_like
+from rovercheck.checker.diagnosis.sentences import behaves_like, like
 
 
 def says(cause: DeviationCause) -> str:
     """What explains the deviations of a cause; empty where nothing does."""
+    if cause.change is not None and len(cause.parts) > 1:
+        return f"{' and '.join(cause.parts)} behave {like(cause.change)}"
     if cause.change is not None:
         return behaves_like(cause.change)
     return f"{cause.part} behaves as if it had other values of {cause.input}" if cause.input else ""

@@ -125,7 +125,7 @@ def known_book(
     known = known_in(source, boards, charts) if source is not None else NONE_KNOWN
     for number, cause in enumerate(known.causes, 1):
         try:
-            changed(boards[cause.board], boards[cause.board].system, cause)
+            changed(boards[cause.board], cause)
         except ModelError as error:
             raise ModelError(
                 f"{source}, cause {number} ({cause.part}): {error} Take this [[cause]] out, and have "

@@ -1,0 +1,100 @@
+"""What explains the deviations of a part: changes, what they must get past, and what was found so far."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.pieces import Pieces, Wrong
+from rovercheck.checker.diagnosis.trial import Parameter, TrialBench
+from rovercheck.spec_model.lang.system import System
+
+
+@dataclass(frozen=True)
+class CoveringChange:
+    """A change that contradicts nothing; all rows of what it explains are right with it, and those before."""
+
+    change: ChartChange
+    explains: frozenset[int]
+    cases: int
+    wrong: Sequence[Wrong]
+    system: System
+
+    @property
+    def rank(self) -> tuple[float, ...]:
+        """The one that explains most comes first, of those the nearest."""
+        return (-len(self.explains), -self.cases, *self.change.nearness)
+
+
+@dataclass(frozen=True)
+class Unexplaining:
+    """A change with which a witness is right, but no deviation wholly, or something is wrong."""
+
+    change: ChartChange
+    cone: LogCone
+    parameter: Parameter | None
+    bench: TrialBench
+    system: System | None
+
+
+@dataclass(frozen=True)
+class Sound:
+    """What was found when nothing was wrong that was right without the changes."""
+
+    changes: int
+    left: frozenset[int]
+    base: Sequence[Wrong]
+    system: System
+    bench: TrialBench
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A run up to the end of the first case of a deviation, which a change must explain before all is tried.
+
+    ``place`` is that of the deviation.  ``before``: how many rows differ before; ``masked``: the outputs in
+    rows with other deviations, without what differs by these.
+    """
+
+    place: int
+    number: int
+    last: int
+    before: int
+    masked: Mapping[int, Known] = field(default_factory=dict, compare=False)
+
+    @property
+    def rank(self) -> tuple[int, int, int]:
+        """Those with nothing else before, then the short ones."""
+        return (self.before, self.last, self.number)
+
+
+@dataclass
+class PartCover:
+    """What explains the deviations of one part: each change with the places of the deviations it explains.
+
+    ``tried`` changes ``of`` those that there are.
+    """
+
+    evidence: PartEvidence
+    deviations: Sequence[Deviation]
+    rows: Mapping[int, "Pieces"] = field(default_factory=dict)
+    """Of each deviation, by its place, the rows in which it is met."""
+    changes: list[tuple[ChartChange, frozenset[int]]] = field(default_factory=list)
+    left: frozenset[int] = frozenset()
+    base: Sequence["Wrong"] = ()
+    """What is still wrong with all changes, in each run of ``TrialBench``."""
+    system: System | None = None
+    """The part with all changes."""
+    bench: TrialBench | None = None
+    """Its recordings, with the stamps as they are taken with all changes."""
+    tried: int = 0
+    of: int = 0
+    seconds: float = 0.0
+    late: bool = False
+    """Whether the time was over before all was tried."""
+
+
+__all__ = ["CoveringChange", "PartCover", "Sound", "Unexplaining", "Witness"]

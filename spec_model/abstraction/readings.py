@@ -1,0 +1,163 @@
+"""Other ways to take a time stamp: in fewer bits, a step late, every other one, two in one record.
+
+A task that calls a supervisor hands stamps over; where it does so otherwise, the charts are as they were, and
+see other ages, updates and means.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from rovercheck.spec_model.abstraction.stamps import CLOCK, since
+
+Take = Callable[[int, int], int]
+"""The stamp that is taken, of the one given and the time of the step; called once in every step."""
+
+TOGETHER: Mapping[str, int] = {
+    "into one record with ": 0, "into one record, added up in 32 bits, with ": 32
+}  # fmt: skip
+"""Ways to keep the intervals of two stamps, and in how many bits they are added up; 0: in all they need."""
+
+
+@dataclass(frozen=True)
+class StampReading:
+    """How one stamp is taken: one of ``READINGS``, or into the record of intervals of another stamp."""
+
+    stamp: str
+    how: str
+
+    @property
+    def text(self) -> str:
+        """What an implementation is like: "last_valid_b2_ms went through 16 bits"."""
+        if self.other:
+            bits = f", added up in {self.bits} bits" if self.bits else ""
+            return f"the intervals of {self.other} and {self.stamp} went into one record{bits}"
+        return READINGS[self.how][0].format(self.stamp)
+
+    @property
+    def other(self) -> str:
+        """The stamp into whose record this one goes, which is read first; "": none."""
+        return next((self.how.removeprefix(w) for w in TOGETHER if self.how.startswith(w)), "")
+
+    @property
+    def bits(self) -> int:
+        """In how many bits the intervals of two stamps are added up; 0: in as many as needed."""
+        return next((bits for way, bits in TOGETHER.items() if self.how.startswith(way)), 0)
+
+    @property
+    def known(self) -> bool:
+        """Whether there is such a reading."""
+        return self.how in READINGS or bool(self.other)
+
+    def start(self) -> Take:
+        """Takes the stamp step by step from power-up."""
+        return READINGS[self.how][1]()
+
+
+class StampsTaken:
+    """Stamps as some readings take them, step by step from power-up."""
+
+    def __init__(self, readings: Sequence[StampReading]) -> None:
+        self._takes = [(one.stamp, one.start()) for one in readings if not one.other]
+
+    @property
+    def names(self) -> list[str]:
+        """The stamps that are taken otherwise."""
+        return list(dict.fromkeys(name for name, _ in self._takes))
+
+    def step(self, stamps: Mapping[str, int], now_ms: int) -> dict[str, int]:
+        """Those that are taken otherwise."""
+        found: dict[str, int] = {}
+        for name, take in self._takes:
+            found[name] = take(found.get(name, stamps[name]), now_ms)
+        return found
+
+
+def readings_of(stamp: str, recorded: Sequence[str] = ()) -> Iterator[StampReading]:
+    """All readings of a stamp; ``recorded``: the stamps whose means are taken, in the order of the steps."""
+    for how in READINGS:
+        yield StampReading(stamp, how)
+    if stamp in recorded:
+        for earlier in recorded[: list(recorded).index(stamp)]:
+            yield from (StampReading(stamp, way + earlier) for way in TOGETHER)
+
+
+# --- the ways ---------------------------------------------------------------------------------------
+
+
+def _bits(number: int) -> Take:
+    return lambda stamp, _: stamp % (1 << number)
+
+
+def _age_bits(number: int) -> Take:
+    return lambda stamp, now: (now - since(now, stamp) % (1 << number)) % CLOCK
+
+
+class _Late:
+    def __init__(self) -> None:
+        self._before = 0
+
+    def __call__(self, stamp: int, _now: int) -> int:
+        before, self._before = self._before, stamp
+        return before
+
+
+class _EveryOther:
+    """Takes new stamps whose number, from 1, is even or odd."""
+
+    def __init__(self, rest: int) -> None:
+        self._rest, self._number = rest, 0
+        self._given = self._taken = 0
+
+    def __call__(self, stamp: int, _now: int) -> int:
+        if stamp != self._given:
+            self._number += 1
+            if self._number % 2 == self._rest:
+                self._taken = stamp
+        self._given = stamp
+        return self._taken
+
+
+class _NewFrom:
+    """From an update on, every step finds a new stamp: as where a counter no longer equals its copy."""
+
+    def __init__(self, first: int) -> None:
+        self._first, self._number, self._given = first, 0, 0
+
+    def __call__(self, stamp: int, now: int) -> int:
+        self._number += stamp != self._given
+        self._given = stamp
+        return now if self._number >= self._first else stamp
+
+
+class _First:
+    def __init__(self) -> None:
+        self._taken: int | None = None
+
+    def __call__(self, stamp: int, _now: int) -> int:
+        if self._taken is None:
+            self._taken = stamp
+        return self._taken
+
+
+READINGS: Mapping[str, tuple[str, Callable[[], Take]]] = {
+    "a step late": ("{} were given a step late", _Late),
+    "in 16 bits": ("{} went through 16 bits", partial(_bits, 16)),
+    "in 8 bits": ("{} went through 8 bits", partial(_bits, 8)),
+    "in 24 bits": ("{} went through 24 bits", partial(_bits, 24)),
+    "its age in 16 bits": ("the age of {} were counted in 16 bits", partial(_age_bits, 16)),
+    "its age in 8 bits": ("the age of {} were counted in 8 bits", partial(_age_bits, 8)),
+    "every other one": ("only every other update of {} were seen", partial(_EveryOther, 0)),
+    "every other one from the first": (
+        "only every other update of {} were seen, the first one too", partial(_EveryOther, 1)
+    ),
+    **{
+        f"new in every step from update {n} on": (
+            f"{{}} were new in every step from its update {n} on", partial(_NewFrom, n)
+        )
+        for n in (1, 2, 4, 8, 16, 32, 64, 128, 256)
+    },
+    "of the first step": ("{} were read in the first step only", _First),
+    "never": ("{} were not read: always 0", lambda: lambda _stamp, _now: 0),
+}  # fmt: skip
+"""What is said of each way to take a stamp, and how it is done; the nearest first."""
