@@ -1,8 +1,8 @@
 """Which of several changes is the cause of which deviation: that without which most of its rows are wrong."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.cover import PartCover
@@ -12,26 +12,43 @@ from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
 from rovercheck.spec_model.lang.errors import ModelError
 
 
-def attributed(cover: PartCover) -> list[tuple[ChartChange, frozenset[int]]]:
-    """The changes of a part, each with the places of the deviations of which it is the cause.
+@dataclass(frozen=True)
+class AttributedChange:
+    """A change with the places of the deviations of which it is the cause.
+
+    ``beside``: of each of these another change is the cause, too, and more than this one.
+    """
+
+    change: ChartChange
+    places: frozenset[int]
+    beside: bool = False
+
+
+def attributed(cover: PartCover) -> list[AttributedChange]:
+    """The changes of a part with the deviations of which they are the cause.
 
     One that is needed for rows of several, and most for none, has that for which it is needed most.  One
     that is needed for none is left out.
     """
-    changes = [change for change, _ in cover.changes]
     if all(explained for _, explained in cover.changes):
-        return cover.changes
+        return [AttributedChange(change, explained) for change, explained in cover.changes]
+    changes = [change for change, _ in cover.changes]
     explained = frozenset[int]().union(*(places for _, places in cover.changes))
     needed = [_needed(cover, number, changes, explained) for number in range(len(changes))]
-    found: list[tuple[ChartChange, frozenset[int]]] = []
+    most = {n: max(range(len(changes)), key=lambda c: _weight(needed[c], n)) for n in explained}
+    found: list[AttributedChange] = []
     for number, change in enumerate(changes):
-        own = needed[number]
-        places = {n for n, rows in own.items() if rows == max(other.get(n, 0) for other in needed)}
-        if not places and own:
-            places = {max(own, key=lambda n: own[n])}
+        places = frozenset(n for n in explained if most[n] == number)
         if places:
-            found.append((change, frozenset(places)))
+            found.append(AttributedChange(change, places))
+        elif own := needed[number]:
+            found.append(AttributedChange(change, frozenset({max(own, key=lambda n: own[n])}), True))
     return found
+
+
+def _weight(needed: Mapping[int, int], place: int) -> tuple[int, int]:
+    """For how many rows of a deviation a change is needed, then for how many of all."""
+    return needed.get(place, 0), sum(needed.values())
 
 
 def _needed(
@@ -62,4 +79,4 @@ def _needed(
     return found
 
 
-__all__ = ["attributed"]
+__all__ = ["AttributedChange", "attributed"]

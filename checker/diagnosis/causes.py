@@ -19,7 +19,8 @@ from rovercheck.spec_model.abstraction import Board
 class DeviationCause:
     """Deviations of one cause, those that were met in most runs first.
 
-    Each is in no other cause, unless it takes two together.  ``change`` explains them; a stamp that is taken
+    Each is in no other cause, unless it takes two together: ``beside`` says that of all of these another
+    change is the cause, too, and more.  ``change`` explains them; a stamp that is taken
     otherwise may show in several parts, and they are deviations of all of these.  Where it is ``None``, other
     values of an ``input`` do, told with the stamp that the implementation computes it from; where that is
     empty, too, nothing does.  ``alone``: whether the changes found in the part explain everything that it
@@ -33,6 +34,7 @@ class DeviationCause:
     input: str = ""
     runs: int = 0
     ticks: int = 0
+    beside: bool = False
 
     @property
     def first(self) -> Deviation:
@@ -144,9 +146,8 @@ def cause_groups(
 def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
     """The causes of a part: its changes, then inputs that are read otherwise."""
     found = [
-        DeviationCause(part.name, change, _at(cover, places), not any(cover.base))
-        for change, places in attributed(cover)
-        if places
+        DeviationCause(part.name, a.change, _at(cover, a.places), not any(cover.base), beside=a.beside)
+        for a in attributed(cover)
     ]
     for name, places in explained_by_inputs(cover):
         told = f"{name}, which is computed from {stamps(part)[name]}"
@@ -162,10 +163,10 @@ def _together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
         reading = None if one.change is None else one.change.reading
         found.setdefault(id(one) if reading is None else reading, []).append(one)
     for first, *more in found.values():
-        every = [first, *more]
+        every = [one for one in (first, *more) if not one.beside] or [first]
         deviations = dict((id(d), d) for one in every for d in one.deviations)
         yield replace(
-            first,
+            every[0],
             deviations=tuple(deviations.values()),
             alone=all(one.alone for one in every),
             runs=max(one.runs for one in every),
