@@ -1,7 +1,6 @@
 """The measurements of one firmware: its base, what is told of its twin, of further faults, of its logs."""
 
 import json
-import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from typing import Any
 from benchmarks.twins.exposed import differing, exposure, inputs_of, outputs, running
 from benchmarks.twins.firmware import HERE, Firmware, Planted
 from benchmarks.twins.recordings import KeptRows, kept, logs, written
-from benchmarks.twins.told import ToldComparison, command, judged, matched, told
+from benchmarks.twins.told import ToldComparison, command, judged, matched, names, told
 
 ALONE = HERE / "planted" / "alone.json"
 """In which outputs each difference shows alone; ``--stage alone`` writes it, in minutes."""
@@ -284,11 +283,3 @@ def _in_part(one: Planted, part: Mapping[str, Any]) -> bool:
         [part["part"], part["cause"], part["partial"], [c["outputs"] for c in part["first_cases"]]]
     )
     return any(name in text for name in (*one.parts, *one.outputs))
-
-
-def names(one: Planted, change: Mapping[str, Any]) -> bool:
-    """Whether a change of a chart is the planted difference: its chart, and a pattern of what is written."""
-    if one.cause == "":
-        return False
-    text = " ".join(str(change.get(key, "")) for key in ("kind", "chart", "at", "old", "new", "note"))
-    return re.search(one.cause, text) is not None

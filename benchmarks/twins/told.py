@@ -4,6 +4,7 @@ Read with tolerance: a mismatch without a part belongs to the part that writes i
 """
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -127,6 +128,14 @@ def fits(board: Board, planted: Planted, alone: Collection[str], group: ToldGrou
     return bool(found) and found <= set(alone) and (own or named)
 
 
+def names(one: Planted, change: Mapping[str, Any]) -> bool:
+    """Whether a change of a chart is the planted difference: its chart, and a pattern of what is written."""
+    if one.cause == "":
+        return False
+    text = " ".join(str(change.get(key, "")) for key in ("kind", "chart", "at", "old", "new", "note"))
+    return re.search(one.cause, text) is not None
+
+
 def matched(fitting: Mapping[str, Sequence[int]]) -> dict[str, int]:
     """The most differences that can each be given a group of its own, by augmenting paths."""
     holder: dict[int, str] = {}
@@ -166,9 +175,13 @@ def judged(
     alone: Mapping[str, Collection[str]],
     groups: Sequence[ToldGroup],
 ) -> ToldTwin:
-    """Gives every difference a group of its own where there is one."""
+    """Gives every difference a group of its own where there is one: it fits, or its change names it."""
     fitting = {
-        one.id: [n for n, group in enumerate(groups) if fits(board, one, alone[one.id], group)]
+        one.id: [
+            n
+            for n, group in enumerate(groups)
+            if names(one, group.change) or fits(board, one, alone[one.id], group)
+        ]
         for one in planted
     }
     found = matched(fitting)

@@ -109,7 +109,8 @@ def _with_part(system: System, old: Chart | Block, new: Chart | Block) -> System
 
 def signals_of(board: Board) -> dict[str, Var]:
     """The signals of a board that a chart may read by mistake, by the name of the variable."""
-    return {**board.system.inputs, **{o.var.name: o.var for o in board.outputs}}
+    carried = {v.var.name: v.var for v in board.interface.views}
+    return {**carried, **board.system.inputs, **{o.var.name: o.var for o in board.outputs}}
 
 
 def timer_changes(system: System, steps: Sequence[int], only: frozenset[str]) -> Iterator[ChartChange]:
