@@ -72,7 +72,7 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
 REWRITES: Mapping[str, ChangeKind] = {
     "bit": "bit", "operands": "operands", "member": "member", "negated": "negated", "signal": "signal",
     "exchanged": "exchanged", "members": "exchanged", "bits": "exchanged", "target": "target",
-    "order": "order", "timer": "timer", "extra": "extra", "shared": "shared",
+    "order": "order", "timer": "timer", "extra": "extra", "shared": "shared", "entry": "entry",
 }  # fmt: skip
 
 TOLD = {
@@ -89,6 +89,7 @@ TOLD = {
     "timer": "a time of {new} instead of {old}",
     "shared": "{old} and {new} share one memory",
     "extra": "there is an extra transition, {new}",
+    "entry": "{new} from {old} is tested in the step in which it is entered, too",
 }
 
 
@@ -97,7 +98,7 @@ def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeK
     if one.kind in ("members", "bits"):
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
-    if one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
+    if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
         text += f", {place_text(one.site)}"
     make = partial(_with_part, system, part, one.part)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)

@@ -21,7 +21,7 @@ from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Temporal, 
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.transition import to
-from rovercheck.spec_model.lang.walk import structure
+from rovercheck.spec_model.lang.walk import nodes, structure
 
 BITS = 8
 
@@ -45,6 +45,7 @@ def rewrites(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewrite
     if isinstance(part, Chart):
         yield from _targets(part)
         yield from _orders(part)
+        yield from _at_entry(part)
     yield from _signals(part, places, others)
     yield from _exchanged(part, others)
     yield from _exchanged_members(part, places)
@@ -318,6 +319,32 @@ def _orders(chart: Chart) -> Iterator[Rewrite]:
                     )  # fmt: skip
 
 
+def _at_entry(chart: Chart) -> Iterator[Rewrite]:
+    """Transitions of a state that is entered by default tested in that step, all of them or one.
+
+    Not those that wait for a time, which has not passed then.
+    """
+    lists = list(transition_lists(chart))
+    by_site = {one.site: one for one in lists}
+    for one in lists:
+        for number, segment in enumerate(one.segments if one.default else ()):
+            path = ".".join((*one.level, segment.target))
+            own = by_site.get(f"arrow/{path}")
+            tested = (
+                [] if own is None else [(n, s) for n, s in enumerate(own.segments, 1) if not _waits(s.guard)]
+            )
+            for n, some in ((n, [s]) for n, s in tested):
+                new = [*one.segments[:number], *some, *one.segments[number:]]
+                yield Rewrite("entry", f"{one.site}.{number + 1}", path, f"transition {n}", one.changed(new))
+            if len(tested) > 1:
+                new = [*one.segments[:number], *(s for _, s in tested), *one.segments[number:]]
+                yield Rewrite("entry", f"{one.site}.{number + 1}", path, "every transition", one.changed(new))
+
+
+def _waits(guard: Expr | None) -> bool:
+    return guard is not None and any(isinstance(node, Temporal) for node in nodes(guard))
+
+
 def extra_transitions(chart: Chart, conditions: Sequence[Expr]) -> Iterator[Rewrite]:
     """Transitions that are not drawn, from each state to each beside it, tested first or last."""
     for one in transition_lists(chart):
@@ -338,7 +365,10 @@ Written = tuple[FormulaPlace, Expr, Callable[[Expr], Expr], Apply | None]
 
 
 def numbers_in(part: Chart | Block) -> Iterator[Written]:
-    """Every number that is written in a part, with the comparison that it is the limit of, if it is one."""
+    """Every number that is written in a part, with the comparison that it is the limit of, if it is one.
+
+    The factor of a change of resolution is none: nobody has written it.
+    """
     for place in formula_places(part):
         inside: set[int] = set()
         for node, put in nodes_in(place.formula):
@@ -346,6 +376,8 @@ def numbers_in(part: Chart | Block) -> Iterator[Written]:
                 inside.add(id(node.args[1]))
                 inside.add(id(node.args[0]))
                 yield place, node, put, node
+            elif isinstance(node, Apply) and node.op is Op.SCALE:
+                inside.add(id(node.args[1]))
             elif isinstance(node, Const) and isinstance(node.sort, Num) and id(node) not in inside:
                 yield place, node, put, None
 
