@@ -20,7 +20,7 @@ from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound,
 from rovercheck.checker.diagnosis.evidence import PartEvidence, logged_of
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
-from rovercheck.checker.diagnosis.pieces import NOT_DECIDED, Wrong, differing, rows_of, wrong_of
+from rovercheck.checker.diagnosis.pieces import NOT_DECIDED, Wrong, differing, more_wrong, rows_of, wrong_of
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
 from rovercheck.checker.diagnosis.trial import Parameter
@@ -274,10 +274,15 @@ class _CoverSearch(HypothesisSearch):
         if not any(self._passed(cone, one, parameter) for one in witnesses):
             return False
         wrong = self._wrong_with(cone, parameter, concerned)
+        if (
+            wrong is not None and parameter is not None
+        ):  # the number as an input, for which there may be no room
+            system, real = self._made(made)
+            wrong = None if real is None else self._wrong_with(real, None, concerned)
         explains = frozenset(n for n in concerned if wrong is not None and self._explained(n, wrong))
         if wrong is None or not explains:
             if made.kind not in ANYWHERE:
-                self._partly.append(Unexplaining(made, cone, parameter, self._bench, system))
+                self._partly.append(Unexplaining(made, self._bench))
             return False
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
@@ -288,20 +293,28 @@ class _CoverSearch(HypothesisSearch):
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
 
+    def _made(self, change: ChartChange) -> tuple[System | None, LogCone | None]:
+        """The charts with a change, and the part of them."""
+        try:
+            system = change.make()
+        except (ModelError, AssertionError, ValueError):
+            return None, None
+        return system, self._cone(system)
+
     def _bridge(self) -> CoveringChange | None:
         """Of changes that explain nothing wholly the one that makes most right, and little wrong."""
         found: list[tuple[int, CoveringChange]] = []
         for one in sorted(self._partly, key=lambda one: one.change.nearness)[:MOST_PARTLY]:
             if self._clock() > self._end:
                 break
+            system, cone = self._made(one.change)
             bench, self._bench = self._bench, one.bench
-            wrong = self._mostly_right(one.cone, one.parameter)
+            wrong = None if cone is None else self._mostly_right(cone, None)
             self._bench = bench
             if wrong is not None:
-                gain = _more(self._base, wrong) - GAIN * _more(wrong, self._base)
+                gain = more_wrong(self._base, wrong) - GAIN * more_wrong(wrong, self._base)
                 explains = frozenset(n for n in self._concerned(one.change) if self._explained(n, wrong))
-                if gain > 0:
-                    system = one.system or one.change.make()
+                if gain > 0 and system is not None:
                     found.append((gain, CoveringChange(one.change, explains, gain, wrong, system)))
         return max(found, key=lambda one: one[0], default=(0, None))[1]
 
@@ -378,12 +391,6 @@ class _CoverSearch(HypothesisSearch):
         run = id(self._bench.runs[number])
         own = self._rows[place]
         return any(pieces & own.get((run, row), frozenset()) for row, pieces in wrong.items())
-
-
-def _more(one: Sequence[Wrong], other: Sequence[Wrong]) -> int:
-    """How much is wrong in one that is right in the other, in outputs of all rows."""
-    pairs = zip(one, other, strict=True)
-    return sum(len(own - there.get(row, frozenset())) for here, there in pairs for row, own in here.items())
 
 
 __all__ = ["covered"]

@@ -3,13 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.program import Known
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.pieces import Pieces, Wrong
-from rovercheck.checker.diagnosis.trial import Parameter, TrialBench
+from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.lang.system import System
 
 
@@ -34,10 +33,7 @@ class Unexplaining:
     """A change with which a witness is right, but no deviation wholly, or something is wrong."""
 
     change: ChartChange
-    cone: LogCone
-    parameter: Parameter | None
     bench: TrialBench
-    system: System | None
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from rovercheck.checker.system.partition import expressions
 from rovercheck.spec_model.abstraction import Output
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Var
-from rovercheck.spec_model.lang.walk import nodes
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 RUNS, STEPS = 150, 300
 """Runs that are tried, and how long one may be."""
@@ -184,8 +185,8 @@ class RunSearch:
             found.update(dict.fromkeys(cells[:50]))
         if isinstance(v.domain.sort, Num):
             low, high = v.domain.low, v.domain.high
-            whole = v.domain.sort.resolution == 1
-            found = {x: None for x in found if low <= x <= high and (isinstance(x, int) or not whole)}
+            has_bits = any(v.name in _with_bits(cone) for cone in self._cones)
+            found = {x: None for x in found if low <= x <= high and (isinstance(x, int) or not has_bits)}
         return list(found) or [v.init]
 
 
@@ -198,6 +199,12 @@ def _limits(cone: LogCone, v: Var) -> Iterator[Raw]:
                 if isinstance(number, Const) and isinstance(number.sort, Num):
                     raw = number.value * number.sort.resolution / v.domain.sort.resolution
                     yield raw.numerator if raw.denominator == 1 else raw
+
+
+def _with_bits(cone: LogCone) -> set[str]:
+    """The numbers of which single bits are read."""
+    bits = (n for n in nodes(*expressions(cone.system.step)) if isinstance(n, Apply) and n.op is Op.BIT)
+    return {name for node in bits for name in variables(*node.args)}
 
 
 def _cut(blocks: Sequence[Timed], steps: int) -> list[Timed]:

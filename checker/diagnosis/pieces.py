@@ -58,4 +58,10 @@ def differing(mismatch: LogMismatch) -> frozenset[tuple[str, int]]:
     return frozenset((d.output.name, d.bit) for one in mismatch.differences for d in one.each_bit())
 
 
-__all__ = ["NOT_DECIDED", "Pieces", "Wrong", "differing", "rows_of", "wrong_of"]
+def more_wrong(one: Sequence[Wrong], other: Sequence[Wrong]) -> int:
+    """How much is wrong in one that is right in the other, in outputs of all rows."""
+    pairs = zip(one, other, strict=True)
+    return sum(len(own - there.get(row, frozenset())) for here, there in pairs for row, own in here.items())
+
+
+__all__ = ["NOT_DECIDED", "Pieces", "Wrong", "differing", "more_wrong", "rows_of", "wrong_of"]

@@ -6,7 +6,12 @@ from fractions import Fraction
 
 import pytest
 
-from rovercheck.checker.conformance.recording import LogBlock
+from rovercheck.checker.conformance.cones import cone_groups
+from rovercheck.checker.conformance.decoder import InputDecoder
+from rovercheck.checker.conformance.recording import LogBlock, Recording
+from rovercheck.checker.conformance.signals import Vocabulary
+from rovercheck.checker.diagnosis.decide import RunSearch
+from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.limits import simplest
 from rovercheck.checker.diagnosis.result import DiagnosedPart, diagnose_board
 from rovercheck.checker.mutate.delays import held, late, stale
@@ -18,7 +23,7 @@ from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.time import sec
-from tests.diagnosis.planted import changed, diagnosis, inputs, part_of, recorded, restless
+from tests.diagnosis.planted import SECONDS, changed, diagnosis, inputs, part_of, recorded, restless
 
 MONITOR = "Monitor_temperature"
 HOT = inputs(
@@ -261,3 +266,35 @@ def test_the_time_that_ends_a_search_is_said() -> None:
 )  # fmt: skip
 def test_simple_numbers(low: str, high: str, closed: tuple[bool, bool], simple: str | None) -> None:
     assert simplest(Fraction(low), Fraction(high), *closed) == (None if simple is None else Fraction(simple))
+
+
+def without(run: Recording, *names: str) -> Recording:
+    """The same run with columns left out."""
+    [block] = run.blocks()
+    values = {name: cells for name, cells in block.values.items() if name not in names}
+    left = replace(block, values=values)
+    return Recording(f"{run.name} without {', '.join(names)}", frozenset(values), True, lambda: [left])
+
+
+def test_a_cause_is_tried_on_runs_with_other_columns_as_a_change_of_their_own_charts() -> None:
+    """The charts of the one are other ones than those of the other: `NameError` once."""
+    part = part_of("board1", "Relay")
+    made = stale(boards()["board1"].system, part, part.read["rx_status"])
+    runs = [recorded("board1", made, LINKS, f"run {number}") for number in (1, 2)]
+    every = [*runs, without(runs[0], "rx_status")]
+    found = diagnose_board(boards()["board1"], every, SECONDS, deciding=False).parts
+    assert {run for p in found if p.cause is not None for run in p.runs} >= {"run 1", "run 2"}
+
+
+def test_a_mask_is_tried_with_whole_numbers_only() -> None:
+    """Beside a limit it has no bits, 5/2 among them: `TypeError` once.  A stick may lie anywhere."""
+    board = boards()["board1"]
+    run = without(recorded("board1", board.system, HOT, "run"), "rover_safety_state", "b2_critical")
+    vocabulary = Vocabulary(board)
+    seen = InputDecoder(vocabulary, run.signals, True).seen
+    groups = cone_groups(board, seen, run.signals - vocabulary.inputs)
+    [group] = [g for g in groups if g.name == "Motion_Supervision"]
+    part = PartEvidence(group, group.cone(), [])
+    values = RunSearch(part, part.cone, part.cone)._values
+    assert all(isinstance(value, int) for value in values["crit_mask_b2"])
+    assert not all(isinstance(value, int) for value in values["x_norm"])
