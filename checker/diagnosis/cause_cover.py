@@ -108,24 +108,19 @@ class _CoverSearch(HypothesisSearch):
             if self._good:
                 self._take(sorted(self._good, key=lambda one: one.rank))
                 self._bridges = 0
-                if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
-                    made = len(self._cover.changes)
-                    sound = Sound(made, self._left, self._base, self._system, self._bench)
-            elif self._combined():
-                made = len(self._cover.changes)
-                sound = Sound(made, self._left, self._base, self._system, self._bench)
-            elif self._bridges < MOST_BRIDGES and (bridge := self._bridge()) is not None:
+            elif not self._combined():
+                bridge = self._bridge() if self._bridges < MOST_BRIDGES and not self.late else None
+                if bridge is None:
+                    break
                 self._bridges += 1
                 self._accept(bridge)
-            else:
-                break
+                continue
+            if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
+                made = len(self._cover.changes)
+                sound = Sound(made, self._left, self._base, self._system, self._bench)
         del self._cover.changes[sound.changes :]
-        self._left, self._base, self._system, self._bench = (
-            sound.left,
-            list(sound.base),
-            sound.system,
-            sound.bench,
-        )
+        self._left, self._base = sound.left, list(sound.base)
+        self._system, self._bench = sound.system, sound.bench
         self._cover.left, self._cover.base, self._cover.system = self._left, self._base, self._system
         self._cover.bench = self._bench
         self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late

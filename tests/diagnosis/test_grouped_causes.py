@@ -12,7 +12,10 @@ from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups, follo
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
 from rovercheck.checker.mutate.rewrites import ASSIGNED, COMPARED, rewrites
 from rovercheck.spec_model.abstraction import boards
-from tests.diagnosis.planted import inputs, part_of, recorded
+from rovercheck.spec_model.lang.chart import Block, Chart
+from rovercheck.spec_model.lang.edit import constant, in_expressions, timer
+from rovercheck.spec_model.lang.time import sec
+from tests.diagnosis.planted import changed, inputs, part_of, recorded
 
 BOARD1 = boards()["board1"]
 STAMP = "last_valid_b2_ms"
@@ -77,3 +80,20 @@ def test_what_is_not_decided_is_not_explained(monkeypatch: pytest.MonkeyPatch) -
     assert [row for row, _ in bench.mismatches(part.cone, 0)] == list(range(3, len(given)))
     judged = bench.trial(part.cone)
     assert judged.cases and judged.explained == 0 and not judged.full
+
+
+def test_two_changes_that_are_wrong_in_the_same_steps_are_found_one_on_top_of_the_other() -> None:
+    """It is critical from 57 °C on, after 3 s: one alone makes no deviation right in all steps."""
+
+    def both(part: Chart | Block) -> Chart | Block:
+        assert isinstance(part, Chart)
+        return in_expressions(in_expressions(part, constant(60, 57)), timer(3 * sec))
+
+    held = [(n, {"temperature_degC": t}) for t in (70.0, 20.0, 57.5, 20.0, 58.0) for n in (45, 170)]
+    run = recorded("board1", changed("board1", "Monitor_temperature", both), inputs("board1", held), "run")
+    groups = grouped("Monitor_temperature", run)
+    found = [c.change for c in groups.causes if c.change is not None]
+    assert {c.kind for c in found} == {"limit", "timer"} and len(found) == len(groups.causes)
+    assert "3 s" in " ".join(c.text for c in found)
+    assert sorted(c.beside for c in groups.causes) == [False, True]
+    assert all(c.deviations for c in groups.causes)
