@@ -11,6 +11,7 @@ from rovercheck.checker.diagnosis.pieces import differing, rows_of
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import ModelError
 
 
 def no_longer_explained(
@@ -39,6 +40,24 @@ def no_longer_explained(
                 if part.name == cause.part:
                     left += _left(evidence.board, part, [*own, *new], len(own), cause)
     return list({id(one): one for one in left}.values())
+
+
+def that_hold(evidence: Evidence, found: PartChanges) -> PartChanges:
+    """The changes of a part with those deviations only that they explain when they are made anew.
+
+    As they are read from a file, one on top of the other: a known deviation must not change by itself.
+    """
+    own = list(found.deviations)
+    cause = KnownCause(evidence.board.name, found.part, tuple(change.key for change in found.changes), ())
+    left: list[Deviation] = []
+    for part in evidence.parts:
+        if part.name == found.part and own:
+            try:
+                left += _left(evidence.board, part, own, len(own), cause)
+            except ModelError:
+                left += own
+    ids = {id(one) for one in left}
+    return replace(found, deviations=tuple(one for one in own if id(one) not in ids))
 
 
 def _left(
@@ -99,4 +118,4 @@ def causes_to_keep(
             yield KnownCause(board, cause.part, cause.changes, tuple(ids))
 
 
-__all__ = ["causes_to_keep", "changed", "no_longer_explained"]
+__all__ = ["causes_to_keep", "changed", "no_longer_explained", "that_hold"]

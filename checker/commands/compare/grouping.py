@@ -9,7 +9,7 @@ from rovercheck.checker.compare.result import CompareResult
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
 from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself, cause_groups, followed, split
-from rovercheck.checker.diagnosis.known_causes import no_longer_explained
+from rovercheck.checker.diagnosis.known_causes import no_longer_explained, that_hold
 from rovercheck.spec_model.abstraction import Board
 
 
@@ -47,7 +47,9 @@ class CauseGrouping:
             evidence = evidence or followed(self.board, runs.runs, progress)
             groups = cause_groups(evidence, found, parts, self.seconds, progress)
             left_out = runs.of - len(runs.runs)
-            self.groups = replace(groups, causes=split(groups.causes, self.known), left_out=left_out)
+            made = [that_hold(evidence, one) if self.asked else one for one in groups.parts]
+            causes = split(groups.causes, self.known)
+            self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
         return [cause.first for cause in self.groups.causes]
 
     def known(self, one: Deviation) -> bool:
