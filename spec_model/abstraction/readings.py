@@ -44,11 +44,6 @@ class StampReading:
         """In how many bits the intervals of two stamps are added up; 0: in as many as needed."""
         return next((bits for way, bits in TOGETHER.items() if self.how.startswith(way)), 0)
 
-    @property
-    def known(self) -> bool:
-        """Whether there is such a reading."""
-        return self.how in READINGS or bool(self.other)
-
     def start(self) -> Take:
         """Takes the stamp step by step from power-up."""
         return READINGS[self.how][1]()

@@ -1,6 +1,7 @@
 """Boards with changes put in by hand, and recorded runs of them."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from random import Random
 
@@ -62,7 +63,12 @@ def restless(board: str, seed: int, steps: int = 450) -> tuple[Row, ...]:
 
 def recorded(board: str, system: System, rows: Sequence[Mapping[str, Value]], name: str) -> Recording:
     """A run of a changed board, as its lowered charts go through it."""
-    own, lowered = boards()[board], lower(system)
+    return recorded_on(replace(boards()[board], system=system), rows, name)
+
+
+def recorded_on(own: Board, rows: Sequence[Mapping[str, Value]], name: str) -> Recording:
+    """A run of a board with its own charts, which may take stamps otherwise."""
+    lowered = lower(own.system)
     reader = own.reader()
     step = compiled(lowered, [ProgramOutput(o.var, o.unless) for o in own.outputs])
     values: dict[str, list[Raw | None]] = {s.name: [s.raw(row[s.name]) for row in rows] for s in own.inputs}
