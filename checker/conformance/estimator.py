@@ -1,6 +1,6 @@
 """The states of a part of a board that explain a log so far, and how they go on."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator, Mapping, Sequence
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -86,30 +86,39 @@ class StateEstimator:
         return found
 
     def _tried(self, valuation: Known, inputs: Known) -> Iterator[BeliefOutcome]:
-        """Steps with values for what they turn out to need."""
-        waiting, seen = [(valuation, inputs)], set[tuple[Known, Known]]()
+        """Steps with values for what they turn out to need, breadth first: so it shows soon if too many."""
+        waiting, seen = deque([(valuation, inputs)]), set[tuple[Known, Known]]()
         while waiting:
-            before, given = waiting.pop()
+            before, given = waiting.popleft()
             self.runs_left -= 1
-            if self.runs_left < 0:
-                raise self._too_many()
+            if self.runs_left < len(waiting):
+                raise self._exhausted()
             try:
                 after, outputs = self._step(before, given)
             except NeededInputs as needed:
-                waiting += self._with_values(needed.name, before, given)
+                waiting += self._with_values(needed.name, before, given, len(waiting))
                 continue
             if (after, outputs) not in seen:
                 seen.add((after, outputs))
                 yield BeliefOutcome(before, after, outputs)
 
-    def _with_values(self, name: str, before: Known, given: Known) -> list[tuple[Known, Known]]:
+    def _with_values(
+        self, name: str, before: Known, given: Known, waiting: int
+    ) -> list[tuple[Known, Known]]:
         values = self.cone.values(name)
         self._asked[name] += len(values)
+        if self.runs_left < waiting + len(values):
+            raise self._exhausted()
         if not self.cone.complete(name):
             self._guessed.add(name)
         if name in self._inputs:
             return [(before, row) for row in _rows(given, self._inputs[name], values)]
         return [(row, given) for row in _rows(before, self._state[name], values)]
+
+    def _exhausted(self) -> TooMany:
+        """Every step that waits would be one: they are not begun where they cannot be ended."""
+        self.runs_left = -1
+        return self._too_many()
 
     def _too_many(self) -> TooMany:
         most = [name for name, _ in self._asked.most_common(3)]
