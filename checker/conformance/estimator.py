@@ -102,9 +102,7 @@ class StateEstimator:
                 seen.add((after, outputs))
                 yield BeliefOutcome(before, after, outputs)
 
-    def _with_values(
-        self, name: str, before: Known, given: Known, waiting: int
-    ) -> list[tuple[Known, Known]]:
+    def _with_values(self, name: str, before: Known, given: Known, waiting: int) -> list[tuple[Known, Known]]:
         values = self.cone.values(name)
         self._asked[name] += len(values)
         if self.runs_left < waiting + len(values):

@@ -6,6 +6,7 @@ from functools import cache, partial
 
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
 from rovercheck.checker.mutate.delays import Delay, delays
+from rovercheck.checker.mutate.memory import shared_memory
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.rewrites import (
     ASSIGNED,
@@ -13,7 +14,6 @@ from rovercheck.checker.mutate.rewrites import (
     Rewrite,
     extra_transitions,
     rewrites,
-    shared_memory,
     timer_rewrites,
 )
 from rovercheck.checker.mutate.wiring import kept
@@ -100,11 +100,12 @@ def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeK
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
     if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
         text += f", {place_text(one.site)}"
-    make = partial(_with_part, system, part, one.part)
+    make = partial(_with_part, system, part, one)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)
 
 
-def _with_part(system: System, old: Chart | Block, new: Chart | Block) -> System:
+def _with_part(system: System, old: Chart | Block, one: Rewrite) -> System:
+    new = one.make()
     return kept(system, in_system(system, old.name, lambda _: new))
 
 

@@ -65,6 +65,7 @@ class TrialBench:
         self._first = [firsts.get(id(run)) for run in self.runs]
         self._order = list(range(len(self.runs)))
         self._rows: dict[tuple[object, ...], list[Rows | None]] = {}
+        self._last: tuple[LogCone | None, list[Rows | None]] = (None, [])
 
     def with_reading(self, reading: StampReading | None) -> "TrialBench":
         """The same with one more stamp taken otherwise."""
@@ -133,6 +134,13 @@ class TrialBench:
     # --- rows ---
 
     def _prepared(self, cone: LogCone) -> list[Rows | None]:
+        last, rows = self._last
+        if last is not cone:
+            rows = self._found_rows(cone)
+            self._last = cone, rows
+        return rows
+
+    def _found_rows(self, cone: LogCone) -> list[Rows | None]:
         names = tuple((v.name, v.name in cone.before) for v in cone.system.inputs)
         key = (names, tuple(o.name for o in cone.outputs))
         if key not in self._rows:

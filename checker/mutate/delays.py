@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from rovercheck.checker.mutate.rewrites import with_memory
+from rovercheck.checker.mutate.memory import with_memory
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
 from rovercheck.spec_model.lang.domain import Bool, boolean

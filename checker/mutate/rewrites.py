@@ -13,10 +13,9 @@ from itertools import combinations
 from rovercheck.checker.mutate.charts import transition_lists
 from rovercheck.checker.mutate.formulas import TIMED
 from rovercheck.checker.mutate.places import FormulaPlace, formula_places, nodes_in
-from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Chart, Path
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
-from rovercheck.spec_model.lang.edit import everywhere, in_actions, in_block, in_expressions
+from rovercheck.spec_model.lang.edit import everywhere, in_block, in_expressions
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Temporal, Var
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.time import Span
@@ -34,7 +33,12 @@ class Rewrite:
     site: str
     old: str
     new: str
-    part: Chart | Block
+    make: Callable[[], Chart | Block]
+
+    @property
+    def part(self) -> Chart | Block:
+        """The part as it is changed."""
+        return self.make()
 
 
 def rewrites(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewrite]:
@@ -62,11 +66,11 @@ def timer_rewrites(part: Chart | Block, step_ms: int, steps: Sequence[int]) -> I
                 continue
             found.setdefault((node.when, node.span, structure(node)), []).append(node)
             for new in _spans(node, step_ms, steps):
-                yield Rewrite("timer", place.site, str(node), str(new), place.put(put(new)))
+                yield Rewrite("timer", place.site, str(node), str(new), partial(_put, place, put, new))
     for same in found.values():
         if len(same) > 1:
             for new in _spans(same[0], step_ms, steps):
-                changed = everywhere_in(part, same[0], new)
+                changed = partial(everywhere_in, part, same[0], new)
                 yield Rewrite("timer", "everywhere", str(same[0]), str(new), changed)
 
 
@@ -77,6 +81,10 @@ def _spans(node: Temporal, step_ms: int, steps: Sequence[int]) -> Iterator[Tempo
     for count in sorted({int(now) + d for d in (-2, -1, 1, 2)} | set(steps), key=lambda n: (abs(n - now), n)):
         if count >= 0 and count != now:
             yield replace(node, span=Span(count * unit, node.span.unit))
+
+
+def _put(place: FormulaPlace, put: Callable[[Expr], Expr], new: Expr) -> Chart | Block:
+    return place.put(put(new))
 
 
 def everywhere_in(part: Chart | Block, old: Expr, new: Expr) -> Chart | Block:
@@ -101,7 +109,7 @@ def mapped(part: Chart | Block, change: Callable[[Expr], Expr]) -> Chart | Block
 def _of_formula(place: FormulaPlace) -> Iterator[Rewrite]:
     for node, put in nodes_in(place.formula):
         for kind, new in _of_node(node, node is place.formula):
-            yield Rewrite(kind, place.site, str(node), str(new), place.put(put(new)))
+            yield Rewrite(kind, place.site, str(node), str(new), partial(_put, place, put, new))
 
 
 def _of_node(node: Expr, whole: bool) -> Iterator[tuple[str, Expr]]:
@@ -133,7 +141,9 @@ def _signals(
         for node, put in nodes_in(place.formula):
             if isinstance(node, Var):
                 for other in _alike(node, others):
-                    yield Rewrite("signal", place.site, node.name, other.name, place.put(put(other)))
+                    yield Rewrite(
+                        "signal", place.site, node.name, other.name, partial(_put, place, put, other)
+                    )
 
 
 def _alike(var: Var, others: Mapping[str, Var]) -> Iterator[Var]:
@@ -151,7 +161,7 @@ def _exchanged(part: Chart | Block, others: Mapping[str, Var]) -> Iterator[Rewri
             if other.name in part.read and other.name < name:
                 continue
             swap = {name: other, other.name: var}
-            yield Rewrite("exchanged", "everywhere", name, other.name, _renamed(part, swap))
+            yield Rewrite("exchanged", "everywhere", name, other.name, partial(renamed, part, swap))
 
 
 def _exchanged_members(part: Chart | Block, places: Sequence[FormulaPlace]) -> Iterator[Rewrite]:
@@ -168,7 +178,9 @@ def _exchanged_members(part: Chart | Block, places: Sequence[FormulaPlace]) -> I
         for one, two in combinations(found[where].values(), 2):
             if one.sort == two.sort:
                 swap = {one.value: two, two.value: one}
-                yield Rewrite("members", where, str(one), str(two), mapped(part, partial(change, swap)))
+                yield Rewrite(
+                    "members", where, str(one), str(two), partial(mapped, part, partial(change, swap))
+                )
 
 
 def _exchanged_bits(part: Chart | Block, places: Sequence[FormulaPlace]) -> Iterator[Rewrite]:
@@ -176,7 +188,7 @@ def _exchanged_bits(part: Chart | Block, places: Sequence[FormulaPlace]) -> Iter
     nodes = [node for place in places for node, _ in nodes_in(place.formula)]
     bits = sorted({bit for node in nodes if (bit := _bit(node)) is not None})
     for one, two in combinations(bits, 2):
-        changed = mapped(part, partial(_other_bit, {one: two, two: one}))
+        changed = partial(mapped, part, partial(_other_bit, {one: two, two: one}))
         yield Rewrite("bits", "everywhere", f"bit {one}", f"bit {two}", changed)
 
 
@@ -220,7 +232,9 @@ def _other(swap: Mapping[int, Const], node: Expr) -> Expr:
     return other if other is not None and other.sort == node.sort else node
 
 
-def _renamed(part: Chart | Block, swap: Mapping[str, Var]) -> Chart | Block:
+def renamed(part: Chart | Block, swap: Mapping[str, Var]) -> Chart | Block:
+    """The part with other variables read in place of some."""
+
     def change(expr: Expr) -> Expr:
         match expr:
             case Var(name):
@@ -235,56 +249,6 @@ def _renamed(part: Chart | Block, swap: Mapping[str, Var]) -> Chart | Block:
     return in_block(part, change) if isinstance(part, Block) else in_expressions(part, change)
 
 
-# --- memory --------------------------------------------------------------------------------------------
-
-
-def shared_memory(part: Chart | Block) -> Iterator[Rewrite]:
-    """Two data of a part in one place of memory."""
-    data = [v for n, v in part.written.items()]
-    for number, one in enumerate(data):
-        for two in data[number + 1 :]:
-            if one.domain == two.domain:
-                yield Rewrite("shared", "memory", two.name, one.name, with_memory(part, {two.name: one}))
-    for first, second in _families(part):
-        yield Rewrite(
-            "shared", "buffers", second, first, with_memory(part, dict(_pairs(part, first, second)))
-        )
-
-
-def _families(part: Chart | Block) -> Iterator[tuple[str, str]]:
-    """Beginnings of names after which several data are named alike: buffers of two links."""
-    names = list(part.written)
-    heads = list(dict.fromkeys(n.rsplit("_", k)[0] + "_" for n in names for k in (1, 2) if n.count("_") >= k))
-    for number, one in enumerate(heads):
-        for two in heads[number + 1 :]:
-            if sum(1 for _ in _pairs(part, one, two)) > 1:
-                yield one, two
-
-
-def _pairs(part: Chart | Block, one: str, two: str) -> Iterator[tuple[str, Var]]:
-    for name, var in part.written.items():
-        twin = part.written.get(one + name.removeprefix(two)) if name.startswith(two) else None
-        if twin is not None and twin.name != name and twin.domain == var.domain:
-            yield name, twin
-
-
-def with_memory(part: Chart | Block, instead_of: Mapping[str, Var]) -> Chart | Block:
-    """The part with other data read and written in place of some."""
-
-    def act(action: Action) -> Action:
-        match action:
-            case Assign(var, value):
-                return Assign(instead_of.get(var.name, var), value)
-            case If(condition, then, otherwise):
-                return If(condition, tuple(map(act, then)), tuple(map(act, otherwise)))
-        return action
-
-    read = _renamed(part, instead_of)
-    if isinstance(read, Block):
-        return Block(read.name, tuple(map(act, read.do)), text=read.text, place=read.place)
-    return in_actions(read, act)
-
-
 # --- transitions ----------------------------------------------------------------------------------------
 
 
@@ -294,7 +258,9 @@ def _targets(chart: Chart) -> Iterator[Rewrite]:
         for number, segment in enumerate(one.segments):
             for target in _reachable(chart, one.level, segment.target):
                 new = [replace(s, target=target) if i == number else s for i, s in enumerate(one.segments)]
-                yield Rewrite("target", f"{one.site}.{number + 1}", segment.target, target, one.changed(new))
+                yield Rewrite(
+                    "target", f"{one.site}.{number + 1}", segment.target, target, partial(one.changed, new)
+                )
 
 
 def _reachable(chart: Chart, level: Path, drawn: str) -> Iterator[str]:
@@ -315,7 +281,7 @@ def _orders(chart: Chart) -> Iterator[Rewrite]:
                 if count > 2 and new != list(one.segments):
                     yield Rewrite(
                         "order", f"{one.site}.{number + 1}", f"transition {number + 1}", word,
-                        one.changed(new),
+                        partial(one.changed, new),
                     )  # fmt: skip
 
 
@@ -335,10 +301,14 @@ def _at_entry(chart: Chart) -> Iterator[Rewrite]:
             )
             for n, some in ((n, [s]) for n, s in tested):
                 new = [*one.segments[:number], *some, *one.segments[number:]]
-                yield Rewrite("entry", f"{one.site}.{number + 1}", path, f"transition {n}", one.changed(new))
+                yield Rewrite(
+                    "entry", f"{one.site}.{number + 1}", path, f"transition {n}", partial(one.changed, new)
+                )
             if len(tested) > 1:
                 new = [*one.segments[:number], *(s for _, s in tested), *one.segments[number:]]
-                yield Rewrite("entry", f"{one.site}.{number + 1}", path, "every transition", one.changed(new))
+                yield Rewrite(
+                    "entry", f"{one.site}.{number + 1}", path, "every transition", partial(one.changed, new)
+                )
 
 
 def _waits(guard: Expr | None) -> bool:
@@ -357,7 +327,7 @@ def extra_transitions(chart: Chart, conditions: Sequence[Expr]) -> Iterator[Rewr
                     new = [more, *one.segments] if word == "first" else [*one.segments, more]
                     yield Rewrite(
                         "extra", one.site, f"no transition to {target}", f"{word}: [{condition}] to {target}",
-                        one.changed(new),
+                        partial(one.changed, new),
                     )  # fmt: skip
 
 
@@ -388,6 +358,6 @@ def _is_limit(node: Apply) -> bool:
 
 
 __all__ = [
-    "Rewrite", "everywhere_in", "extra_transitions", "mapped", "numbers_in", "rewrites", "same_shape",
-    "shared_memory", "timer_rewrites", "with_memory",
+    "Rewrite", "everywhere_in", "extra_transitions", "mapped", "numbers_in", "renamed", "rewrites",
+    "same_shape", "timer_rewrites",
 ]  # fmt: skip
