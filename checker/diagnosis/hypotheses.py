@@ -6,8 +6,10 @@ from functools import cache, partial
 
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
 from rovercheck.checker.mutate.delays import Delay, delays
+from rovercheck.checker.mutate.functions import function_rewrites
 from rovercheck.checker.mutate.memory import shared_memory
 from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.power_up import other_beginnings
 from rovercheck.checker.mutate.rewrites import (
     ASSIGNED,
     COMPARED,
@@ -67,17 +69,25 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
                 yield _of_rewrite(system, part, one, REWRITES[one.kind])
             for one in shared_memory(part):
                 yield _of_rewrite(system, part, one, "shared")
+            for one in function_rewrites(part, system.step_ms):
+                yield _of_rewrite(system, part, one, OPERATORS.get(one.kind, "dropped"))
 
 
 REWRITES: Mapping[str, ChangeKind] = {
-    "bit": "bit", "operands": "operands", "member": "member", "negated": "negated", "signal": "signal",
-    "exchanged": "exchanged", "members": "exchanged", "bits": "exchanged", "target": "target",
-    "order": "order", "timer": "timer", "extra": "extra", "shared": "shared", "entry": "entry",
+    "bit": "bit", "only": "dropped", "operands": "operands", "member": "member", "negated": "negated",
+    "signal": "signal", "exchanged": "exchanged", "members": "exchanged", "bits": "exchanged",
+    "target": "target", "order": "order", "timer": "timer", "extra": "extra", "shared": "shared",
+    "entry": "entry",
 }  # fmt: skip
 
 TOLD = {
     "bit": "`{new}` in place of `{old}`",
+    "only": "of `{old}` only `{new}` counts",
+    "and-or": "`{new}` in place of `{old}`",
+    "comparison": "`{new}` in place of `{old}`",
+    "dropped": "`{new}` in place of `{old}`",
     "operands": "`{new}` in place of `{old}`",
+    "value": "`{new}` in place of `{old}`",
     "member": "{new} in place of {old}",
     "negated": "`{old}` is negated",
     "signal": "{new} is read in place of {old}",
@@ -95,7 +105,7 @@ TOLD = {
 
 def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
     word: str = "signal" if kind == "exchanged" and one.new not in part.read else kind
-    if one.kind in ("members", "bits"):
+    if one.kind in ("members", "bits", "only", "and-or"):
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
     if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
@@ -153,6 +163,16 @@ def _told(one: Delay) -> str:
             return f"{one.signal} is read in the first step only"
         case _:
             return f"{one.signal} is not read: {one.new}"
+
+
+def beginning_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:
+    """Other initial values, which the default transition sets as well."""
+    for part in parts(system.components):
+        if isinstance(part, Chart) and part.name in only:
+            for one in other_beginnings(system, part):
+                old, new = one.var.domain.show(one.var.init), one.var.domain.show(one.value)
+                text = f"{one.var.name} begins as {new}, not as {old}, and the default transition keeps it so"
+                yield ChartChange("initial", part.name, one.site, old, new, text, one.make, 0.5)
 
 
 def stamp_changes(board: Board, system: System, only: frozenset[str]) -> Iterator[ChartChange]:
@@ -269,6 +289,6 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 
 __all__ = [
-    "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of", "stamp_changes",
-    "timer_changes", "written_changes",
+    "beginning_changes", "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of",
+    "stamp_changes", "timer_changes", "written_changes",
 ]  # fmt: skip

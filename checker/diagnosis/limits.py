@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from itertools import zip_longest
 from math import ceil, floor, log10
 
 from rovercheck.checker.conformance.recording import Raw
@@ -49,7 +50,7 @@ class NumberSlot:
     """A number of a chart that may have another value.
 
     ``left`` and ``op`` are those of the comparison that it is the limit of.  ``part`` makes the chart with
-    another operator and number, in one place or everywhere that ``left`` is compared with it.
+    another operator and number, in one place or everywhere that ``left``, or all, is compared with it.
     """
 
     chart: str
@@ -59,6 +60,8 @@ class NumberSlot:
     left: Expr | None
     part: Callable[[Op | None, Expr], Chart | Block]
     system: System
+    beside: tuple[Expr, ...] = ()
+    """What else is compared with it."""
 
     @property
     def sort(self) -> Num:
@@ -107,7 +110,9 @@ class NumberSlot:
 
     def _formula(self, op: Op | None, raw: Raw) -> str:
         value = number_text(Fraction(raw) * self.sort.resolution)
-        return value if op is None or self.left is None else f"{self.left} {op.value} {value}"
+        if op is None or self.left is None:
+            return value
+        return f"{', '.join(map(str, (self.left, *self.beside)))} {op.value} {value}"
 
     def _const(self, raw: Raw) -> Const:
         exact = Fraction(raw)
@@ -145,9 +150,12 @@ def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
         yield slot
         if op in OPPOSITE:
             same.setdefault((structure(left), old.value, old.sort), []).append(slot)
+    alike: dict[object, list[NumberSlot]] = {}
     for found in same.values():
         if len(found) > 1:
-            yield _everywhere(system, part, found[0])
+            yield _everywhere(system, part, found[:1])
+        alike.setdefault((found[0].old.value, found[0].old.sort), []).append(found[0])
+    yield from (_everywhere(system, part, found) for found in alike.values() if len(found) > 1)
     yield from (found[0] for found in repeated.values() if len(found) > 1)
 
 
@@ -183,10 +191,11 @@ def _compared(op: Op | None, left: Expr, number: Expr) -> Expr:
     return Apply(op, args, Bool())
 
 
-def _everywhere(system: System, part: Chart | Block, slot: NumberSlot) -> NumberSlot:
-    """All comparisons of one formula with one number; those with ``<`` and ``>=`` stay opposites."""
-    left, old, drawn = slot.left, slot.old, slot.op
-    assert left is not None and drawn is not None
+def _everywhere(system: System, part: Chart | Block, slots: Sequence[NumberSlot]) -> NumberSlot:
+    """All comparisons of some formulas with one number; those with ``<`` and ``>=`` stay opposites."""
+    lefts = [slot.left for slot in slots if slot.left is not None]
+    old, drawn = slots[0].old, slots[0].op
+    assert drawn is not None
 
     def changed(op: Op | None, new: Expr) -> Chart | Block:
         assert op is not None
@@ -200,13 +209,13 @@ def _everywhere(system: System, part: Chart | Block, slot: NumberSlot) -> Number
             here, number, found = _normal(node)
             if found not in OPPOSITE or number.value != old.value or number.sort != old.sort:
                 return node
-            if not same_shape(here, left):
+            if not any(same_shape(here, left) for left in lefts):
                 return node
             return _compared(BESIDE[found] if turned else found, here, new)
 
         return mapped(part, change)
 
-    return NumberSlot(part.name, "everywhere", old, drawn, left, changed, system)
+    return NumberSlot(part.name, "everywhere", old, drawn, lefts[0], changed, system, tuple(lefts[1:]))
 
 
 # --- values ------------------------------------------------------------------------------------------------
@@ -260,6 +269,14 @@ class MetValues:
             self._known[key] = self._met(formula)
         return self._known[key]
 
+    def of_all(self, formulas: Sequence[Expr]) -> tuple[list[Fraction], list[Fraction]]:
+        """The values of several formulas together, in the same order."""
+        if len(formulas) == 1:
+            return self.of(formulas[0])
+        every, recent = zip(*map(self.of, formulas), strict=True)
+        latest = (value for rank in zip_longest(*recent) for value in rank if value is not None)
+        return sorted({value for some in every for value in some}), list(dict.fromkeys(latest))
+
     def _met(self, formula: Expr) -> tuple[list[Fraction], list[Fraction]]:
         names = list(variables(formula))
         every: set[Fraction] = set()
@@ -311,7 +328,7 @@ def values_of(
 
 def _limits(slot: NumberSlot, met: MetValues) -> Iterator[tuple[Op, Fraction, Gap | None]]:
     assert slot.left is not None and slot.op is not None
-    every, recent = met.of(slot.left)
+    every, recent = met.of_all((slot.left, *slot.beside))
     size = slot.sort.resolution
     seen: set[tuple[Fraction, Fraction]] = set()
     for value in recent:

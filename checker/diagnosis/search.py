@@ -17,6 +17,7 @@ from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import TIERS, ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
+    beginning_changes,
     delay_changes,
     extra_changes,
     mutant_changes,
@@ -176,6 +177,7 @@ class HypothesisSearch(ABC):
         found += written_changes(self._evidence.group.board, system)
         found += timer_changes(system, self._durations(), only)
         found += mutant_changes(system)
+        found += beginning_changes(system, only)
         found += rewrite_changes(system, self._signals(), only)
         outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
         found += delay_changes(system, only, outputs)

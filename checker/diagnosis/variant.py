@@ -9,6 +9,7 @@ from pathlib import Path
 
 from rovercheck.checker.diagnosis.change import KINDS, ChartChange
 from rovercheck.checker.diagnosis.hypotheses import (
+    beginning_changes,
     delay_changes,
     extra_changes,
     mutant_changes,
@@ -153,6 +154,7 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
         case "comparison":
             yield from _numbers(system, only, change)
             yield from mutant_changes(system, only)
+            yield from rewrite_changes(system, signals_of(board), only)
         case "timer":
             yield from timer_changes(system, _steps(system, change.new), only)
         case "interpretation" | "repair":
@@ -165,6 +167,9 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
             yield from stamp_changes(board, system, only)
         case "extra":
             yield from extra_changes(system, only)
+        case "initial":
+            yield from beginning_changes(system, only)
+            yield from mutant_changes(system, only)
         case _:
             yield from mutant_changes(system, only)
             yield from rewrite_changes(system, signals_of(board), only)

@@ -123,6 +123,8 @@ def _of_node(node: Expr, whole: bool) -> Iterator[tuple[str, Expr]]:
         case Apply(op, (left, right)) if op in COMPARISONS and op not in (Op.EQ, Op.NE):
             if not (isinstance(left, Const) or isinstance(right, Const)):
                 yield "operands", replace(node, args=(right, left))
+        case Apply(Op.AND | Op.OR, (_, _, _, *_) as conditions):
+            yield from (("only", condition) for condition in conditions)
         case Const(value, Enum(_, members) as sort):
             for _, number in members:
                 if number != value:

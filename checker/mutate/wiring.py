@@ -147,7 +147,7 @@ def _initial_values(system: System, wanted: Wanted) -> Iterator[Wrong]:
             continue
         concerned = tuple(p.name for p in everything if name in p.written or name in p.read)
         text = f"{name} begins as {v.domain.show(begins)}, not as {v.domain.show(v.init)}"
-        changed = partial(_renewed, system, replace(v, init=begins))
+        changed = partial(renewed, system, replace(v, init=begins))
         site = f"{first[name].name}/data/{name}"
         yield Wrong(site, "initial", text, first[name].place, concerned, changed)
 
@@ -169,7 +169,7 @@ def _beside(v: Var) -> int | None:
     return values[place + 1] if place + 1 < len(values) else values[place - 1]
 
 
-def _renewed(system: System, new: Var) -> System:
+def renewed(system: System, new: Var) -> System:
     """The system with a variable replaced wherever it occurs."""
     swap = instead(new.name, lambda _: new)
 
