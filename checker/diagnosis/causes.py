@@ -157,21 +157,29 @@ def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
 
 
 def _together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
-    """A stamp that is taken otherwise once, with all parts that show it."""
+    """One change once, with all parts and all kinds of runs that show it."""
     found: dict[object, list[DeviationCause]] = {}
     for one in causes:
-        reading = None if one.change is None else one.change.reading
-        found.setdefault(id(one) if reading is None else reading, []).append(one)
+        found.setdefault(_same(one), []).append(one)
     for first, *more in found.values():
         every = [one for one in (first, *more) if not one.beside] or [first]
         deviations = dict((id(d), d) for one in every for d in one.deviations)
+        # a part that is there twice was followed in runs of other columns
+        parts = [[one for one in every if one.part == name] for name in {one.part for one in every}]
         yield replace(
             every[0],
             deviations=tuple(deviations.values()),
             alone=all(one.alone for one in every),
-            runs=max(one.runs for one in every),
-            ticks=max(one.ticks for one in every),
+            runs=max(sum(one.runs for one in same) for same in parts),
+            ticks=max(sum(one.ticks for one in same) for same in parts),
         )
+
+
+def _same(one: DeviationCause) -> object:
+    """What two causes have in common that are one: the stamp that is taken otherwise, or the change."""
+    if one.change is None:
+        return id(one)
+    return one.change.key if one.change.reading is None else one.change.reading
 
 
 def _at(cover: PartCover, places: Iterable[int]) -> tuple[Deviation, ...]:
