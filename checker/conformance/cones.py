@@ -25,6 +25,7 @@ from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Const, Expr, Var
 from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.lower.ranges import unguarded
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
 
@@ -263,7 +264,9 @@ def _read_twice(group: Sequence[int], parts: Sequence[LogPart], cuts: Iterable[s
 
 
 def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone:
-    lowered = replace(lower(system), checks=())
+    whole = lower(system)
+    # values between those of a domain are stored like the others
+    lowered = replace(whole, checks=(), step=unguarded(whole.step))
     told = group.seen | group.cuts
     told_all = all(v.name in told for v in lowered.inputs)  # then nothing lies between
     numbers = [] if told_all else [o for o in group.outputs if measured(o)]

@@ -58,7 +58,7 @@ class ProgramOutput:
 
 
 def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput], known: bool = False) -> Step:
-    """The step of a system.  Values between those of a domain are stored like the others.
+    """The step of a system, which has no checks of domains.
 
     ``known``: it is quicker, and must only be given values that are known; measured ones may be ``Decimal``
     too, in a context that traps ``Inexact``.
@@ -162,9 +162,6 @@ def _assigned(var: Var, value: Expr, names: _Names) -> Iterator[str]:
 
 
 def _conditional(statement: If, names: _Names) -> Iterator[str]:
-    if _guards_a_domain(statement):
-        yield from _statements(statement.then, names)
-        return
     for word, branch in (
         (f"if {_value(statement.condition, names)}", statement.then),
         ("else", statement.otherwise),
@@ -172,11 +169,6 @@ def _conditional(statement: If, names: _Names) -> Iterator[str]:
         if branch or word != "else":
             yield f"{word}:"
             yield from (f"    {line}" for line in [*_statements(branch, names)] or ["pass"])
-
-
-def _guards_a_domain(statement: If) -> bool:
-    """Whether lowering made it, to see values outside a domain, where a measured one may well lie."""
-    return any(isinstance(a, Assign) and a.var.name.endswith(".out_of_domain") for a in statement.otherwise)
 
 
 def _value(expr: Expr, names: _Names) -> str:

@@ -6,7 +6,7 @@ and another one is looked for on top of it, up to three.
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -106,6 +106,8 @@ class HypothesisSearch(ABC):
         self._bench = TrialBench(evidence)
         self._met = MetValues(evidence)
         self._outputs = len(evidence.cone.outputs)
+        told = evidence.group.seen | {PARAMETER}  # a number that is tried is always known
+        self._group = replace(evidence.group, seen=told)
         self.tried = self.of = 0
         self.late = False
         """Whether the time was over before all was tried."""
@@ -214,7 +216,7 @@ class HypothesisSearch(ABC):
     def _cone(self, system: System) -> LogCone | None:
         """The changed part, or None where it has no meaning or no longer gives what is compared."""
         try:
-            cone = self._evidence.group.cone(system)
+            cone = self._group.cone(system)
         except (ModelError, StopIteration, RecursionError, AssertionError):
             return None
         return cone if len(cone.outputs) == self._outputs else None

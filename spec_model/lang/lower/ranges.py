@@ -150,6 +150,20 @@ def protected(statement: If) -> Assign | None:
     return None
 
 
+def unguarded(program: Sequence[Statement]) -> tuple[Statement, ...]:
+    """The program without checks of domains: what does not fit is assigned all the same."""
+    found: list[Statement] = []
+    for statement in program:
+        if not isinstance(statement, If):
+            found.append(statement)
+        elif (assignment := protected(statement)) is not None:
+            found.append(assignment)
+        else:
+            then, otherwise = unguarded(statement.then), unguarded(statement.otherwise)
+            found.append(If(statement.condition, then, otherwise))
+    return tuple(found)
+
+
 def check_of(statement: If) -> Var | None:
     """The variable that a check raises; None if this is no check."""
     assignment = protected(statement)
