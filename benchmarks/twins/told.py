@@ -176,15 +176,25 @@ def judged(
     groups: Sequence[ToldGroup],
 ) -> ToldTwin:
     """Gives every difference a group of its own where there is one: it fits, or its change names it."""
+    named = {one.id: [n for n, g in enumerate(groups) if names(one, g.change)] for one in planted}
     fitting = {
         one.id: [
-            n
-            for n, group in enumerate(groups)
-            if names(one, group.change) or fits(board, one, alone[one.id], group)
+            *named[one.id],
+            *(
+                n
+                for n, g in enumerate(groups)
+                if n not in named[one.id] and fits(board, one, alone[one.id], g)
+            ),
         ]
         for one in planted
     }
-    found = matched(fitting)
+    first = matched(named)  # so that none is given the group that names another one
+    taken = set(first.values())
+    fitting = {
+        name: [*(n for n in some if first.get(name) == n), *(n for n in some if n not in taken), *some]
+        for name, some in fitting.items()
+    }
+    found = matched(dict(sorted(fitting.items(), key=lambda item: item[0] not in first)))
     of_some = {n for numbers in fitting.values() for n in numbers}
     mixed = [n for n in range(len(groups)) if n not in of_some and _mixed(board, planted, alone, groups[n])]
     return ToldTwin(

@@ -185,7 +185,7 @@ class _CoverSearch(HypothesisSearch):
 
     def order(self, change: ChartChange) -> Nearness:
         """Initial values first, where something differs in the first step of a run."""
-        return (-1.0,) if change.kind == "initial" and self._at_power_up else change.nearness
+        return (-1.0,) if change.kind == "initial" and self._at_power_up else super().order(change)
 
     def concerns(self, change: ChartChange) -> bool:
         """Whether a change may explain a deviation that is left."""

@@ -48,6 +48,9 @@ BROAD = 4
 
 MOST_DURATIONS = 40
 
+STAMPS = TIERS["always"]
+"""When stamps that are taken otherwise are tried: before the many changes that are farther than this."""
+
 Clock = Callable[[], float]
 
 
@@ -153,8 +156,8 @@ class HypothesisSearch(ABC):
             self._each(extra, before)
 
     def order(self, change: ChartChange) -> Nearness:
-        """What is tried first."""
-        return change.nearness
+        """What is tried first; ways to take a stamp are few, and soon tried."""
+        return change.nearness if change.reading is None else (STAMPS, change.distance)
 
     @property
     def ended(self) -> bool:
