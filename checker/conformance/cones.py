@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from rovercheck.checker.conformance.alike import ValueLikes, computed_with
+from rovercheck.checker.conformance.numbers import is_number, value_of
 from rovercheck.checker.conformance.program import (
     BeliefOutcome,
     Known,
@@ -267,7 +268,7 @@ def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone
     whole = lower(system)
     # values between those of a domain are stored like the others
     lowered = replace(whole, checks=(), step=unguarded(whole.step))
-    told = group.seen | group.cuts
+    told = group.seen | group.cuts | {v.name for v in whole.inputs if is_number(v.name)}
     told_all = all(v.name in told for v in lowered.inputs)  # then nothing lies between
     numbers = [] if told_all else [o for o in group.outputs if measured(o)]
     free = frozenset(o.name for o in numbers if _between(_least(lowered, [o]), told))
@@ -279,6 +280,8 @@ def _cone(group: ConeGroup, system: System, parts: Sequence[LogPart]) -> LogCone
     charts = tuple(p.component for p in parts if isinstance(p.component, Chart))
     components = tuple(p.component for p in parts)
     between = frozenset[str]() if told_all else _between(least, told)
+    given = tuple(v for v in least.inputs if value_of(v.name) is None)
+    least = replace(least, inputs=given)
     return LogCone(least, own, charts, before, between, tuple(sorted(free)), components)
 
 

@@ -3,8 +3,10 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 from typing import Any, cast
 
+from rovercheck.checker.conformance.numbers import value_of
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.encode.python_text import OPERATIONS, Row, text_of
 from rovercheck.spec_model.lang.action import Action, Assign, If
@@ -73,7 +75,9 @@ def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput], known: 
     shown = _tuple(f"None if {_value(o.unless, names)} else {names.of(o.var)}" for o in outputs)
     lines += [*body, f"return {_tuple(names.of(v) for v in state)}, {shown}"]
     source = "def step(state, inputs):\n" + "\n".join(f"    {line}" for line in lines)
-    scope: dict[str, object] = {"need": _need, "mod": _mod, "div": _div}
+    scope: dict[str, object] = {
+        "need": _need, "mod": _mod, "div": _div, "Fraction": Fraction, "Decimal": Decimal
+    }  # fmt: skip
     exec(compile(source, f"<step of {system.name}>", "exec"), scope)
     return cast(Step, scope["step"])
 
@@ -114,7 +118,15 @@ class _Names:
         self.all_known = all_known
 
     def of(self, var: Var) -> str:
+        number = value_of(var.name)
+        if number is not None:
+            return self._literal(number)
         return self._known.setdefault(var.name, f"v{len(self._known)}")
+
+    def _literal(self, number: Fraction) -> str:
+        """A decimal where decimals are computed with, if it can be one."""
+        exact = Decimal(number.numerator) / number.denominator
+        return repr(exact) if self.all_known and Fraction(exact) == number else repr(number)
 
     def is_copied_to(self, var: Var) -> bool:
         """Whether the step may make it a copy of another variable."""

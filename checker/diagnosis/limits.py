@@ -12,6 +12,7 @@ from functools import partial
 from itertools import zip_longest
 from math import ceil, floor, log10
 
+from rovercheck.checker.conformance.numbers import number_between, open_number
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
 from rovercheck.checker.diagnosis.evidence import PartEvidence
@@ -21,17 +22,15 @@ from rovercheck.checker.mutate.rewrites import mapped, numbers_in, same_shape
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.abstraction.signals import computed
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
-from rovercheck.spec_model.lang.domain import Bool, Num, fixed
+from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.domain import show as number_text
 from rovercheck.spec_model.lang.edit import in_system
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, aligned
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Temporal, aligned
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import nodes, structure, variables
 
-PARAMETER = "(limit that is tried)"
-WIDE = 10**9
 BEFORE = 260
 """Rows before a case whose values may have brought it about."""
 MOST_MET = 80
@@ -75,9 +74,7 @@ class NumberSlot:
 
     def opened(self, op: Op | None) -> System:
         """The system with the number left open, as an input."""
-        high = WIDE * self.sort.resolution
-        domain = fixed(-high, high, self.sort.resolution, str(self.sort.unit))
-        return self._with(op, Var(PARAMETER, domain, 0))
+        return self._with(op, open_number(self.sort))
 
     def change(self, op: Op | None, raw: Raw, between: Gap | None = None) -> ChartChange:
         """The number as another one; ``between``: the values met between which it lies."""
@@ -93,7 +90,7 @@ class NumberSlot:
         far += (not self.at.startswith("everywhere")) / 8
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
-            lambda: self._with(op, self._const(raw)), far / 100, self._between(between),
+            lambda: self._with(op, self._number(op, raw)), far / 100, self._between(between),
         )  # fmt: skip
 
     def _between(self, gap: Gap | None) -> str:
@@ -114,8 +111,10 @@ class NumberSlot:
             return value
         return f"{', '.join(map(str, (self.left, *self.beside)))} {op.value} {value}"
 
-    def _const(self, raw: Raw) -> Const:
+    def _number(self, op: Op | None, raw: Raw) -> Expr:
         exact = Fraction(raw)
+        if op is None and exact.denominator > 1:
+            return number_between(exact, self.sort)
         sort = Num(self.sort.resolution / exact.denominator, self.sort.unit)
         return Const(exact.numerator, sort) if exact.denominator > 1 else Const(int(exact), self.sort)
 
@@ -380,4 +379,4 @@ def _constants(slot: NumberSlot, factors: Iterable[Fraction]) -> Iterator[Fracti
         yield -whole * unit
 
 
-__all__ = ["PARAMETER", "MetValues", "NumberSlot", "digits", "number_slots", "simplest", "values_of"]
+__all__ = ["MetValues", "NumberSlot", "digits", "number_slots", "simplest", "values_of"]

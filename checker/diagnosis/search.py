@@ -6,13 +6,14 @@ and another one is looked for on top of it, up to three.
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
+from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import TIERS, ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import PartEvidence
@@ -27,7 +28,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     timer_changes,
     written_changes,
 )
-from rovercheck.checker.diagnosis.limits import PARAMETER, MetValues, NumberSlot, number_slots, values_of
+from rovercheck.checker.diagnosis.limits import MetValues, NumberSlot, number_slots, values_of
 from rovercheck.checker.diagnosis.trial import Parameter, Trial, TrialBench
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.board import with_readings
@@ -109,8 +110,6 @@ class HypothesisSearch(ABC):
         self._bench = TrialBench(evidence)
         self._met = MetValues(evidence)
         self._outputs = len(evidence.cone.outputs)
-        told = evidence.group.seen | {PARAMETER}  # a number that is tried is always known
-        self._group = replace(evidence.group, seen=told)
         self.tried = self.of = 0
         self.late = False
         """Whether the time was over before all was tried."""
@@ -219,7 +218,7 @@ class HypothesisSearch(ABC):
     def _cone(self, system: System) -> LogCone | None:
         """The changed part, or None where it has no meaning or no longer gives what is compared."""
         try:
-            cone = self._group.cone(system)
+            cone = self._evidence.group.cone(system)
         except (ModelError, StopIteration, RecursionError, AssertionError):
             return None
         return cone if len(cone.outputs) == self._outputs else None
