@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import cache
 from random import Random
 
+from rovercheck.checker.conformance.numbers import value_of
 from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
 from rovercheck.checker.conformance.recording import LogBlock, Raw, Recording
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
@@ -13,6 +14,7 @@ from rovercheck.spec_model.abstraction import Board, Value, boards
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.edit import in_system
 from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.lower.ranges import unguarded
 from rovercheck.spec_model.lang.system import System
 
 Row = dict[str, Value]
@@ -68,7 +70,9 @@ def recorded(board: str, system: System, rows: Sequence[Mapping[str, Value]], na
 
 def recorded_on(own: Board, rows: Sequence[Mapping[str, Value]], name: str) -> Recording:
     """A run of a board with its own charts, which may take stamps otherwise."""
-    lowered = lower(own.system)
+    whole = lower(own.system)
+    signals = tuple(v for v in whole.inputs if value_of(v.name) is None)
+    lowered = replace(whole, checks=(), step=unguarded(whole.step), inputs=signals)
     reader = own.reader()
     step = compiled(lowered, [ProgramOutput(o.var, o.unless) for o in own.outputs])
     values: dict[str, list[Raw | None]] = {s.name: [s.raw(row[s.name]) for row in rows] for s in own.inputs}
