@@ -12,7 +12,7 @@ from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.hypotheses import beginning_changes, rewrite_changes
 from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.checker.mutate.memory import shared_memory
-from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.abstraction import Value, boards
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Num
 from tests.diagnosis.planted import Row, diagnosis, inputs, part_of
@@ -88,7 +88,13 @@ def test_a_constant_between_those_that_its_datum_may_have() -> None:
     [slot] = [s for s in slots if s.drawn * s.sort.resolution == Fraction(4, 5)]
     change = slot.change(None, Fraction(7, 2))
     assert change.new == "0.7"
-    steps = [(10, {}), (10, {"y_norm": 1.0}), (20, {"cmd": 2}), (20, {"cmd": 0}), (10, {"y_norm": 0.0})]
+    steps: list[tuple[int, dict[str, Value]]] = [
+        (10, {}),
+        (10, {"y_norm": 1.0}),
+        (20, {"cmd": 2}),
+        (20, {"cmd": 0}),
+        (10, {"y_norm": 0.0}),
+    ]
     run = inputs("board1", steps)
     assert found("board1", change, run) == [change.key]
 
