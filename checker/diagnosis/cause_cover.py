@@ -8,7 +8,7 @@ Where two changes make the same rows wrong, none of them explains a deviation al
 that makes most right, and kept if with those found on top of it nothing is wrong that was right.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
 from time import process_time
@@ -20,7 +20,8 @@ from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound,
 from rovercheck.checker.diagnosis.evidence import PartEvidence, logged_of
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
-from rovercheck.checker.diagnosis.pieces import NOT_DECIDED, Wrong, differing, more_wrong, rows_of, wrong_of
+from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, wrong_of
+from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
 from rovercheck.checker.diagnosis.trial import Parameter
@@ -53,9 +54,6 @@ GAIN = 4
 ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
 """Kinds of which some change makes right almost whatever is wrong."""
 
-LIKELY = 3
-"""Conforming runs that have contradicted most changes, with which a change is tried first."""
-
 
 def covered(
     evidence: PartEvidence, deviations: Sequence[Deviation], seconds: float, clock: Clock = process_time
@@ -74,11 +72,11 @@ class _CoverSearch(HypothesisSearch):
         self._end = start + MORE_TIME * seconds
         self._cover = found
         self._name = found.evidence.name
-        self._rows = found.rows = rows_of(found.evidence, found.deviations)
+        self._rows: Mapping[int, Pieces] = rows_of(found.evidence, found.deviations)
+        found.rows = self._rows
         self._good: list[CoveringChange] = []
         self._partly: list[Unexplaining] = []
-        self._bridges = 0
-        self._contradictions: dict[int, int] = {}
+        self._judge = RowJudge(self._rows)
         self._base: list[Wrong] = []
         self._left: frozenset[int] = frozenset()
         self._witnesses: list[Witness] = []
@@ -93,37 +91,76 @@ class _CoverSearch(HypothesisSearch):
         self._left = frozenset(n for n in self._rows if self._rows[n])
         self._system = self._evidence.group.system
         drawn = list(self._base)
-        sound = Sound(0, self._left, drawn, self._system, self._bench)
+        sound = self._now
+        others: list[CoveringChange] = []
         while len(self._cover.changes) < MOST_CAUSES:
-            self._good, self._partly, self._settled = [], [], frozenset()
-            self._witnesses = self._first_cases()
-            self._first = frozenset(w.place for w in self._witnesses if not w.before)
-            self._at_power_up = any(w.last == 0 for w in self._witnesses)
-            if not self._left or not self._witnesses:
-                break
-            self._influence = ChangeInfluence(self._system, self._evidence.cone.outputs)
-            self.level(self._system, ())
-            if self.enough:
-                self.of = self.tried
-            if self._good:
-                self._take(sorted(self._good, key=lambda one: one.rank))
-                self._bridges = 0
-            elif not self._combined():
-                bridge = self._bridge() if self._bridges < MOST_BRIDGES and not self.late else None
-                if bridge is None:
-                    break
-                self._bridges += 1
-                self._accept(bridge)
+            more = self._level()
+            if more and self._more_explained():
+                if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
+                    sound, others = self._now, []
                 continue
-            if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
-                made = len(self._cover.changes)
-                sound = Sound(made, self._left, self._base, self._system, self._bench)
-        del self._cover.changes[sound.changes :]
-        self._left, self._base = sound.left, list(sound.base)
-        self._system, self._bench = sound.system, sound.bench
+            found = self._bridges() if more else []
+            if len(self._cover.changes) == sound.changes:
+                others = found
+            elif found and found[0].cases > 0 and len(self._cover.changes) < sound.changes + MOST_BRIDGES:
+                self._begin(found[0])
+                continue
+            if not others or self.late:
+                break
+            self._back(sound)
+            self._begin(others.pop(0))
+        self._back(sound)
         self._cover.left, self._cover.base, self._cover.system = self._left, self._base, self._system
         self._cover.bench = self._bench
         self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late
+
+    def _level(self) -> bool:
+        """Try every change on top of those taken; whether there is anything left to explain."""
+        self._good, self._partly, self._settled = [], [], frozenset()
+        self._witnesses = self._first_cases()
+        self._first = frozenset(w.place for w in self._witnesses if not w.before)
+        self._at_power_up = any(w.last == 0 for w in self._witnesses)
+        if not self._left or not self._witnesses:
+            return False
+        self._influence = ChangeInfluence(self._system, self._evidence.cone.outputs)
+        self.level(self._system, ())
+        if self.enough:
+            self.of = self.tried
+        return True
+
+    def _more_explained(self) -> bool:
+        """Take what explains something, and makes nothing wrong."""
+        if self._good:
+            self._take(sorted(self._good, key=lambda one: one.rank))
+        return bool(self._good) or self._combined()
+
+    def _begin(self, bridge: CoveringChange) -> None:
+        """Take a change that makes something wrong, which belongs to deviations of the same outputs now."""
+        before = list(self._base)
+        self._accept(bridge)
+        rows = {place: dict(own) for place, own in self._rows.items()}
+        places = sorted(rows, key=lambda n: n not in self._left)
+        for run, old, new in zip(self._bench.runs, before, self._base, strict=True):
+            for row, pieces in new.items():
+                for piece in pieces - old.get(row, frozenset()):
+                    for place in places:
+                        if piece[0] in self._cover.deviations[place].scope.outputs:
+                            at = id(run), row
+                            rows[place][at] = rows[place].get(at, frozenset()) | {piece}
+                            self._left |= {place}
+                            break
+        self._rows, self._judge = rows, RowJudge(rows)
+
+    @property
+    def _now(self) -> Sound:
+        made = len(self._cover.changes)
+        return Sound(made, self._left, list(self._base), self._system, self._bench, self._rows)
+
+    def _back(self, sound: Sound) -> None:
+        del self._cover.changes[sound.changes :]
+        self._left, self._base = sound.left, list(sound.base)
+        self._system, self._bench = sound.system, sound.bench
+        self._rows, self._judge = sound.rows, RowJudge(sound.rows)
 
     def _take(self, good: Sequence[CoveringChange]) -> None:
         """The best, and on top of it what explains something else."""
@@ -146,7 +183,7 @@ class _CoverSearch(HypothesisSearch):
         changes, wrong, bench = search.found(lambda: self._clock() > self._end)
         if not all(new.keys() <= old.keys() for old, new in zip(self._base, wrong, strict=True)):
             return False
-        explains = frozenset(n for n in self._left if self._explained(n, wrong))
+        explains = self._judge.explained(self._left, self._bench, wrong)
         if not changes or not explains:
             return False
         self._cover.changes += [(change, frozenset[int]()) for change in changes[:-1]]
@@ -168,11 +205,13 @@ class _CoverSearch(HypothesisSearch):
         cone = self._cone(system)
         concerned = self._concerned(change)
         bench, self._bench = self._bench, self._bench.with_reading(change.reading)
-        wrong = None if cone is None else self._wrong_with(cone, None, concerned)
+        wrong = (
+            None if cone is None else self._judge.all_right(self._bench, self._base, cone, None, concerned)
+        )
         self._bench = bench
         if wrong is None:
             return False
-        explains = frozenset(n for n in concerned if self._explained(n, wrong))
+        explains = self._judge.explained(concerned, self._bench, wrong)
         if explains:
             self._accept(CoveringChange(change, explains, 0, wrong, system))
         return bool(explains)
@@ -268,13 +307,13 @@ class _CoverSearch(HypothesisSearch):
         witnesses = [one for one in self._witnesses if one.place in concerned]
         if not any(self._passed(cone, one, parameter) for one in witnesses):
             return False
-        wrong = self._wrong_with(cone, parameter, concerned)
+        wrong = self._right(cone, parameter, concerned)
         if (
             wrong is not None and parameter is not None
         ):  # the number as an input, for which there may be no room
             system, real = self._made(made)
-            wrong = None if real is None else self._wrong_with(real, None, concerned)
-        explains = frozenset(n for n in concerned if wrong is not None and self._explained(n, wrong))
+            wrong = None if real is None else self._right(real, None, concerned)
+        explains = frozenset[int]() if wrong is None else self._judge.explained(concerned, self._bench, wrong)
         if wrong is None or not explains:
             if made.kind not in ANYWHERE:
                 self._partly.append(Unexplaining(made, self._bench))
@@ -288,6 +327,11 @@ class _CoverSearch(HypothesisSearch):
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
 
+    def _right(
+        self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int]
+    ) -> list[Wrong] | None:
+        return self._judge.all_right(self._bench, self._base, cone, parameter, concerned)
+
     def _made(self, change: ChartChange) -> tuple[System | None, LogCone | None]:
         """The charts with a change, and the part of them."""
         try:
@@ -296,96 +340,23 @@ class _CoverSearch(HypothesisSearch):
             return None, None
         return system, self._cone(system)
 
-    def _bridge(self) -> CoveringChange | None:
-        """Of changes that explain nothing wholly the one that makes most right, and little wrong."""
+    def _bridges(self) -> list[CoveringChange]:
+        """Changes on which others may be put, those first that make most right and little wrong.
+
+        One that makes more wrong counts if it explains some deviation wholly: another one may mask it.
+        """
         found: list[tuple[int, CoveringChange]] = []
         for one in sorted(self._partly, key=lambda one: one.change.nearness)[:MOST_PARTLY]:
             if self._clock() > self._end:
                 break
             system, cone = self._made(one.change)
-            bench, self._bench = self._bench, one.bench
-            wrong = None if cone is None else self._mostly_right(cone, None)
-            self._bench = bench
-            if wrong is not None:
+            wrong = None if cone is None else self._judge.mostly_right(one.bench, self._base, cone)
+            if wrong is not None and system is not None:
                 gain = more_wrong(self._base, wrong) - GAIN * more_wrong(wrong, self._base)
-                explains = frozenset(n for n in self._concerned(one.change) if self._explained(n, wrong))
-                if gain > 0 and system is not None:
+                explains = self._judge.explained(self._concerned(one.change), one.bench, wrong)
+                if gain > 0 or explains:
                     found.append((gain, CoveringChange(one.change, explains, gain, wrong, system)))
-        return max(found, key=lambda one: one[0], default=(0, None))[1]
-
-    def _mostly_right(self, cone: LogCone, parameter: Parameter | None) -> list[Wrong] | None:
-        """What is wrong with a changed part in each run; ``None`` if something is earlier than before."""
-        found: list[Wrong] = [{} for _ in self._base]
-        for number in self._order():
-            base = self._base[number]
-            if not base:
-                wrong = not self._bench.passes(cone, number, None, parameter)
-            else:
-                rows = self._rows_of(cone, number, parameter, base)
-                found[number] = dict(rows)
-                wrong = min(found[number], default=len(self._bench.runs[number])) < min(base)
-            if wrong:
-                self._contradictions[number] = self._contradictions.get(number, 0) + 1
-                return None
-        return found
-
-    def _wrong_with(
-        self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int]
-    ) -> list[Wrong] | None:
-        """What is wrong with a changed part in each run.
-
-        ``None`` if something is that was right before, or if none of those concerned is explained.
-        """
-        found: list[Wrong] = [{} for _ in self._base]
-        left = concerned
-        for number in self._order():
-            base = self._base[number]
-            if not base:
-                wrong = not self._bench.passes(cone, number, None, parameter)
-            else:
-                rows = self._tracked_rows(cone, number, parameter, base)
-                wrong = rows is None
-                found[number] = rows or {}
-                left = frozenset(n for n in left if not self._is_wrong(n, number, found[number]))
-            if wrong:
-                self._contradictions[number] = self._contradictions.get(number, 0) + 1
-            if wrong or not left:
-                return None
-        return found
-
-    def _order(self) -> list[int]:
-        """Some conforming runs that contradict often, all that deviate, and the other ones."""
-        every = sorted(range(len(self._base)), key=lambda n: -self._contradictions.get(n, 0))
-        conforming = [n for n in every if not self._base[n]]
-        deviating = [n for n in every if self._base[n]]
-        return [*conforming[:LIKELY], *deviating, *conforming[LIKELY:]]
-
-    def _tracked_rows(
-        self, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
-    ) -> Wrong | None:
-        found: dict[int, frozenset[tuple[str, int]]] = {}
-        for row, wrong in self._rows_of(cone, number, parameter, base):
-            if row not in base:
-                return None
-            found[row] = wrong
-        return found
-
-    def _rows_of(
-        self, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
-    ) -> Iterator[tuple[int, frozenset[tuple[str, int]]]]:
-        """The rows that are wrong with a changed part; one that is not decided is as wrong as before."""
-        for row, mismatch in self._bench.mismatches(cone, number, parameter):
-            yield row, base.get(row, NOT_DECIDED) if mismatch is None else differing(mismatch)
-
-    def _explained(self, place: int, wrong: Sequence[Wrong]) -> bool:
-        """Whether all rows of a deviation are right, as far as they are its own."""
-        return not any(self._is_wrong(place, number, rows) for number, rows in enumerate(wrong))
-
-    def _is_wrong(self, place: int, number: int, wrong: Wrong) -> bool:
-        """Whether some row of a deviation is wrong in a run, as far as it is its own."""
-        run = id(self._bench.runs[number])
-        own = self._rows[place]
-        return any(pieces & own.get((run, row), frozenset()) for row, pieces in wrong.items())
+        return [one for _, one in sorted(found, key=lambda one: -one[0])]
 
 
 __all__ = ["covered"]

@@ -38,13 +38,14 @@ class Unexplaining:
 
 @dataclass(frozen=True)
 class Sound:
-    """What was found when nothing was wrong that was right without the changes."""
+    """What was found up to so many changes: sound, if nothing is wrong that was right without them."""
 
     changes: int
     left: frozenset[int]
     base: Sequence[Wrong]
     system: System
     bench: TrialBench
+    rows: Mapping[int, Pieces]
 
 
 @dataclass(frozen=True)
