@@ -76,6 +76,7 @@ class _CoverSearch(HypothesisSearch):
         found.rows = self._rows
         self._good: list[CoveringChange] = []
         self._partly: list[Unexplaining] = []
+        self._found: list[CoveringChange] = []
         self._judge = RowJudge(self._rows)
         self._base: list[Wrong] = []
         self._left: frozenset[int] = frozenset()
@@ -99,7 +100,7 @@ class _CoverSearch(HypothesisSearch):
                 if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
                     sound, others = self._now, []
                 continue
-            found = self._bridges() if more else []
+            found = self._found or (self._bridges() if more else [])
             if len(self._cover.changes) == sound.changes:
                 others = found
             elif found and found[0].cases > 0 and len(self._cover.changes) < sound.changes + MOST_BRIDGES:
@@ -116,7 +117,7 @@ class _CoverSearch(HypothesisSearch):
 
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
-        self._good, self._partly, self._settled = [], [], frozenset()
+        self._good, self._partly, self._found, self._settled = [], [], [], frozenset()
         self._witnesses = self._first_cases()
         self._first = frozenset(w.place for w in self._witnesses if not w.before)
         self._at_power_up = any(w.last == 0 for w in self._witnesses)
@@ -242,6 +243,14 @@ class _CoverSearch(HypothesisSearch):
         return bool(self._good)
 
     @property
+    def promising(self) -> bool:
+        """Whether a change explains some deviation, but for what others mask."""
+        if not self._good and self._partly and not self.late:
+            found = self._bridges()
+            self._found = found if found and found[0].cases > 0 and found[0].explains else []
+        return bool(self._found)
+
+    @property
     def enough(self) -> bool:
         """Whether single changes explain all that comes first in some run, each of what it concerns.
 
@@ -305,7 +314,8 @@ class _CoverSearch(HypothesisSearch):
         made = change()
         concerned = self._concerned(made)
         witnesses = [one for one in self._witnesses if one.place in concerned]
-        if not any(self._passed(cone, one, parameter) for one in witnesses):
+        passed = sum(self._passed(cone, one, parameter) for one in witnesses)
+        if not passed:
             return False
         wrong = self._right(cone, parameter, concerned)
         if (
@@ -316,7 +326,7 @@ class _CoverSearch(HypothesisSearch):
         explains = frozenset[int]() if wrong is None else self._judge.explained(concerned, self._bench, wrong)
         if wrong is None or not explains:
             if made.kind not in ANYWHERE:
-                self._partly.append(Unexplaining(made, self._bench))
+                self._partly.append(Unexplaining(made, self._bench, passed))
             return False
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
@@ -346,7 +356,7 @@ class _CoverSearch(HypothesisSearch):
         One that makes more wrong counts if it explains some deviation wholly: another one may mask it.
         """
         found: list[tuple[int, CoveringChange]] = []
-        for one in sorted(self._partly, key=lambda one: one.change.nearness)[:MOST_PARTLY]:
+        for one in sorted(self._partly, key=lambda one: one.rank)[:MOST_PARTLY]:
             if self._clock() > self._end:
                 break
             system, cone = self._made(one.change)

@@ -34,6 +34,13 @@ class Unexplaining:
 
     change: ChartChange
     bench: TrialBench
+    passed: int
+    """How many witnesses."""
+
+    @property
+    def rank(self) -> tuple[float, ...]:
+        """The one that passes most comes first, of those the nearest."""
+        return (-self.passed, *self.change.nearness)
 
 
 @dataclass(frozen=True)

@@ -110,6 +110,7 @@ class HypothesisSearch(ABC):
         self._bench = TrialBench(evidence)
         self._met = MetValues(evidence)
         self._outputs = len(evidence.cone.outputs)
+        self._known = {PARAMETER, *(v.name for v in evidence.cone.system.inputs), *self._signals()}
         self.tried = self.of = 0
         self.late = False
         """Whether the time was over before all was tried."""
@@ -135,6 +136,11 @@ class HypothesisSearch(ABC):
         return False
 
     @property
+    def promising(self) -> bool:
+        """Whether, after the nearest changes and the limits, some explains so much that it is gone on with."""
+        return False
+
+    @property
     def enough(self) -> bool:
         """Whether nothing more needs to be tried, though there is time."""
         return False
@@ -148,6 +154,9 @@ class HypothesisSearch(ABC):
         self._each(changes[:near], before)
         if not self.ended:
             self._limits(system, before, only)
+        if self.promising:
+            self.of -= len(changes) - near
+            return
         self._each(changes[near:], before)
         if not self.satisfied:
             extra = list(extra_changes(system, only))
@@ -216,12 +225,16 @@ class HypothesisSearch(ABC):
         return [*likely, 5, 10, 25, 50, 100, 150, 200, 250]
 
     def _cone(self, system: System) -> LogCone | None:
-        """The changed part, or None where it has no meaning or no longer gives what is compared."""
+        """The changed part, or None where it has no meaning or no longer gives what is compared.
+
+        Nor where it may do one or the other: firmware does one of them.
+        """
         try:
             cone = self._evidence.group.cone(system)
         except (ModelError, StopIteration, RecursionError, AssertionError):
             return None
-        return cone if len(cone.outputs) == self._outputs else None
+        told = self._known.issuperset(v.name for v in cone.system.inputs)
+        return cone if told and len(cone.outputs) == self._outputs else None
 
     def _try(self, change: ChartChange, before: tuple[ChartChange, ...]) -> None:
         try:
