@@ -137,7 +137,7 @@ class HypothesisSearch(ABC):
 
     @property
     def promising(self) -> bool:
-        """Whether, after the nearest changes and the limits, some explains so much that it is gone on with."""
+        """Whether, after the nearest changes and the limits, one explains so much that it is taken."""
         return False
 
     @property
