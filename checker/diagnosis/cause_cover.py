@@ -76,7 +76,6 @@ class _CoverSearch(HypothesisSearch):
         found.rows = self._rows
         self._good: list[CoveringChange] = []
         self._partly: list[Unexplaining] = []
-        self._found: list[CoveringChange] = []
         self._judge = RowJudge(self._rows)
         self._base: list[Wrong] = []
         self._left: frozenset[int] = frozenset()
@@ -100,7 +99,7 @@ class _CoverSearch(HypothesisSearch):
                 if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
                     sound, others = self._now, []
                 continue
-            found = self._found or (self._bridges() if more else [])
+            found = self._bridges() if more else []
             if len(self._cover.changes) == sound.changes:
                 others = found
             elif found and found[0].cases > 0 and len(self._cover.changes) < sound.changes + MOST_BRIDGES:
@@ -117,7 +116,7 @@ class _CoverSearch(HypothesisSearch):
 
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
-        self._good, self._partly, self._found, self._settled = [], [], [], frozenset()
+        self._good, self._partly, self._settled = [], [], frozenset()
         self._witnesses = self._first_cases()
         self._first = frozenset(w.place for w in self._witnesses if not w.before)
         self._at_power_up = any(w.last == 0 for w in self._witnesses)
@@ -241,14 +240,6 @@ class _CoverSearch(HypothesisSearch):
     def satisfied(self) -> bool:
         """Whether something is explained by transitions that are drawn."""
         return bool(self._good)
-
-    @property
-    def promising(self) -> bool:
-        """Whether a change explains some deviation, but for what others mask."""
-        if not self._good and self._partly and not self.late:
-            found = self._bridges()
-            self._found = found if found and found[0].cases > 0 and found[0].explains else []
-        return bool(self._found)
 
     @property
     def enough(self) -> bool:

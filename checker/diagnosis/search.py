@@ -136,11 +136,6 @@ class HypothesisSearch(ABC):
         return False
 
     @property
-    def promising(self) -> bool:
-        """Whether, after the nearest changes and the limits, one explains so much that it is taken."""
-        return False
-
-    @property
     def enough(self) -> bool:
         """Whether nothing more needs to be tried, though there is time."""
         return False
@@ -154,9 +149,6 @@ class HypothesisSearch(ABC):
         self._each(changes[:near], before)
         if not self.ended:
             self._limits(system, before, only)
-        if self.promising:
-            self.of -= len(changes) - near
-            return
         self._each(changes[near:], before)
         if not self.satisfied:
             extra = list(extra_changes(system, only))

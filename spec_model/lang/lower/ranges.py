@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 
-from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.domain import Bool, Domain, boolean
 from rovercheck.spec_model.lang.evaluate import operate
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, all_of, any_of
@@ -150,17 +150,15 @@ def protected(statement: If) -> Assign | None:
     return None
 
 
-def unguarded(program: Sequence[Statement]) -> tuple[Statement, ...]:
-    """The program without checks of domains: what does not fit is assigned all the same."""
+def unguarded(program: Sequence[Action]) -> tuple[Statement, ...]:
+    """A lowered program without checks of domains: what does not fit is assigned all the same."""
     found: list[Statement] = []
     for statement in program:
-        if not isinstance(statement, If):
-            found.append(statement)
-        elif (assignment := protected(statement)) is not None:
-            found.append(assignment)
-        else:
+        if isinstance(statement, If):
             then, otherwise = unguarded(statement.then), unguarded(statement.otherwise)
-            found.append(If(statement.condition, then, otherwise))
+            found.append(protected(statement) or If(statement.condition, then, otherwise))
+        elif isinstance(statement, Assign):
+            found.append(statement)
     return tuple(found)
 
 
