@@ -55,7 +55,13 @@ class StateEstimator:
         """Whether the outputs are those of the log; what is not logged may be anything."""
         if outcome.outputs == logged:
             return True
-        return not self.differing(outcome, logged)
+        return self.agrees(outcome.outputs, logged)
+
+    def agrees(self, required: Known, logged: Known) -> bool:
+        """Whether no output is another than the one required."""
+        if required == logged:
+            return True
+        return not any(map(differs, required, logged, self.apart))
 
     def differing(self, outcome: BeliefOutcome, logged: Known) -> list[int]:
         """Positions of the outputs that are not as the charts require."""

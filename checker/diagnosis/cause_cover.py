@@ -15,6 +15,8 @@ from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.numbers import PARAMETER
+from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import ChartChange, Nearness
 from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness
 from rovercheck.checker.diagnosis.evidence import PartEvidence, logged_of
@@ -82,6 +84,7 @@ class _CoverSearch(HypothesisSearch):
         self._witnesses: list[Witness] = []
         self._first = frozenset[int]()
         self._settled = frozenset[int]()
+        self._passed_by_good = 0
         self._at_power_up = False
         self._influence = ChangeInfluence(found.evidence.group.system, found.evidence.cone.outputs)
 
@@ -93,30 +96,48 @@ class _CoverSearch(HypothesisSearch):
         drawn = list(self._base)
         sound = self._now
         others: list[CoveringChange] = []
+        instead: list[CoveringChange] = []
         while len(self._cover.changes) < MOST_CAUSES:
             more = self._level()
+            at_sound = len(self._cover.changes) == sound.changes
+            if more and at_sound and not instead and (ahead := self._ahead()) is not None:
+                instead = list(self._good)
+                self._begin(ahead)
+                continue
             if more and self._more_explained():
-                if all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True)):
-                    sound, others = self._now, []
+                if self._sound(drawn):
+                    sound, others, instead = self._now, [], []
                 continue
             found = self._bridges() if more else []
-            if len(self._cover.changes) == sound.changes:
+            if at_sound:
                 others = found
             elif found and found[0].cases > 0 and len(self._cover.changes) < sound.changes + MOST_BRIDGES:
                 self._begin(found[0])
                 continue
-            if not others or self.late:
+            if self.late or not (others or instead):
                 break
             self._back(sound)
-            self._begin(others.pop(0))
+            if instead:
+                self._take(instead)
+                sound = self._now
+            else:
+                self._begin(others.pop(0))
+        if instead and not self._sound(drawn):
+            self._back(sound)
+            self._take(instead)
+            sound = self._now
         self._back(sound)
         self._cover.left, self._cover.base, self._cover.system = self._left, self._base, self._system
         self._cover.bench = self._bench
         self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late
 
+    def _sound(self, drawn: Sequence[Wrong]) -> bool:
+        """Whether nothing is wrong that was right without any change."""
+        return all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True))
+
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
-        self._good, self._partly, self._settled = [], [], frozenset()
+        self._good, self._partly, self._settled, self._passed_by_good = [], [], frozenset(), 0
         self._witnesses = self._first_cases()
         self._first = frozenset(w.place for w in self._witnesses if not w.before)
         self._at_power_up = any(w.last == 0 for w in self._witnesses)
@@ -280,6 +301,17 @@ class _CoverSearch(HypothesisSearch):
     def _passed(self, cone: LogCone, one: Witness, parameter: Parameter | None) -> bool:
         return self._bench.passes(cone, one.number, one.last, parameter, one.masked)
 
+    def passing(self, cone: LogCone, change: ChartChange, values: Sequence[Raw]) -> set[Raw]:
+        """The values with which some witness is right that the change may concern."""
+        concerned = self._concerned(change)
+        found = set[Raw]()
+        for one in self._witnesses:
+            if one.place in concerned and len(found) < len(values):
+                found |= set(
+                    self._bench.passing(cone, one.number, one.last, PARAMETER, values, one.masked)
+                )
+        return found
+
     def _masked(self, one: Witness) -> Witness:
         """With the outputs left out that differ by other deviations."""
         run, names = self._bench.runs[one.number], [o.name for o in self._evidence.cone.outputs]
@@ -325,6 +357,7 @@ class _CoverSearch(HypothesisSearch):
         first = self._first & concerned
         if first and first <= explains:
             self._settled |= concerned
+        self._passed_by_good = max(self._passed_by_good, passed)
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
 
@@ -341,23 +374,46 @@ class _CoverSearch(HypothesisSearch):
             return None, None
         return system, self._cone(system)
 
+    def _ahead(self) -> CoveringChange | None:
+        """A change that explains more than one that makes nothing wrong, and that too, but makes something wrong.
+
+        The other one explains a few cases by chance, in which this one and another cause mask each other.
+        """
+        partly = [one for one in self._partly if self._good and one.passed > self._passed_by_good]
+        bridges = map(self._bridge, sorted(partly, key=lambda one: one.rank)[:NEAREST])
+        most = max((len(one.explains) for one in self._good), default=0)
+        found = [
+            bridge
+            for bridge in bridges
+            if bridge is not None
+            and len(bridge.explains) > most
+            and any(one.explains < bridge.explains for one in self._good)
+        ]
+        return max(found, key=lambda bridge: (len(bridge.explains), bridge.cases), default=None)
+
     def _bridges(self) -> list[CoveringChange]:
         """Changes on which others may be put, those first that make most right and little wrong.
 
         One that makes more wrong counts if it explains some deviation wholly: another one may mask it.
         """
-        found: list[tuple[int, CoveringChange]] = []
+        found: list[CoveringChange] = []
         for one in sorted(self._partly, key=lambda one: one.rank)[:MOST_PARTLY]:
             if self._clock() > self._end:
                 break
-            system, cone = self._made(one.change)
-            wrong = None if cone is None else self._judge.mostly_right(one.bench, self._base, cone)
-            if wrong is not None and system is not None:
-                gain = more_wrong(self._base, wrong) - GAIN * more_wrong(wrong, self._base)
-                explains = self._judge.explained(self._concerned(one.change), one.bench, wrong)
-                if gain > 0 or explains:
-                    found.append((gain, CoveringChange(one.change, explains, gain, wrong, system)))
-        return [one for _, one in sorted(found, key=lambda one: -one[0])]
+            bridge = self._bridge(one)
+            if bridge is not None and (bridge.cases > 0 or bridge.explains):
+                found.append(bridge)
+        return sorted(found, key=lambda one: -one.cases)
+
+    def _bridge(self, one: Unexplaining) -> CoveringChange | None:
+        """What a change does that makes something wrong, if nothing is earlier; ``cases`` is what it gains."""
+        system, cone = self._made(one.change)
+        wrong = None if cone is None else self._judge.mostly_right(one.bench, self._base, cone)
+        if wrong is None or system is None:
+            return None
+        gain = more_wrong(self._base, wrong) - GAIN * more_wrong(wrong, self._base)
+        explains = self._judge.explained(self._concerned(one.change), one.bench, wrong)
+        return CoveringChange(one.change, explains, gain, wrong, system)
 
 
 __all__ = ["covered"]

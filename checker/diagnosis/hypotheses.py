@@ -6,6 +6,7 @@ from functools import cache, partial
 
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
 from rovercheck.checker.mutate.delays import Delay, delays
+from rovercheck.checker.mutate.durings import other_durings
 from rovercheck.checker.mutate.functions import function_rewrites
 from rovercheck.checker.mutate.memory import shared_memory
 from rovercheck.checker.mutate.mutants import Mutant, mutants
@@ -74,7 +75,7 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
 
 
 REWRITES: Mapping[str, ChangeKind] = {
-    "bit": "bit", "only": "dropped", "operands": "operands", "member": "member", "negated": "negated",
+    "bit": "bit", "only": "dropped", "also": "joined", "operands": "operands", "member": "member", "negated": "negated",
     "signal": "signal", "exchanged": "exchanged", "members": "exchanged", "bits": "exchanged",
     "target": "target", "order": "order", "timer": "timer", "extra": "extra", "shared": "shared",
     "entry": "entry",
@@ -83,6 +84,7 @@ REWRITES: Mapping[str, ChangeKind] = {
 TOLD = {
     "bit": "`{new}` in place of `{old}`",
     "only": "of `{old}` only `{new}` counts",
+    "also": "`{new}` in place of `{old}`",
     "and-or": "`{new}` in place of `{old}`",
     "comparison": "`{new}` in place of `{old}`",
     "dropped": "`{new}` in place of `{old}`",
@@ -105,7 +107,7 @@ TOLD = {
 
 def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
     word: str = "signal" if kind == "exchanged" and one.new not in part.read else kind
-    if one.kind in ("members", "bits", "only", "and-or"):
+    if one.kind in ("members", "bits", "only", "and-or", "also"):
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
     if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
@@ -173,6 +175,15 @@ def beginning_changes(system: System, only: frozenset[str]) -> Iterator[ChartCha
                 old, new = one.var.domain.show(one.var.init), one.var.domain.show(one.value)
                 text = f"{one.var.name} begins as {new}, not as {old}, and the default transition keeps it so"
                 yield ChartChange("initial", part.name, one.site, old, new, text, one.make, 0.5)
+
+
+def during_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:
+    """During actions of a superstate that are not executed in each of the states inside it."""
+    for part in parts(system.components):
+        if isinstance(part, Chart) and part.name in only:
+            for one in other_durings(system, part):
+                text = f"{one.old} on during of {one.site.split('/')[1]}: executed {one.new}"
+                yield ChartChange("missing", part.name, one.site, one.old, one.new, text, one.make, 0.5)
 
 
 def stamp_changes(board: Board, system: System, only: frozenset[str]) -> Iterator[ChartChange]:
@@ -289,6 +300,6 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 
 __all__ = [
-    "beginning_changes", "delay_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of",
+    "beginning_changes", "delay_changes", "during_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of",
     "stamp_changes", "timer_changes", "written_changes",
 ]  # fmt: skip

@@ -5,7 +5,7 @@ and another one is looked for on top of it, up to three.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
@@ -20,6 +20,7 @@ from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
     beginning_changes,
     delay_changes,
+    during_changes,
     extra_changes,
     mutant_changes,
     rewrite_changes,
@@ -183,6 +184,7 @@ class HypothesisSearch(ABC):
         found += timer_changes(system, self._durations(), only)
         found += mutant_changes(system)
         found += beginning_changes(system, only)
+        found += during_changes(system, only)
         found += rewrite_changes(system, self._signals(), only)
         outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
         found += delay_changes(system, only, outputs)
@@ -250,21 +252,41 @@ class HypothesisSearch(ABC):
                 continue
             values = values_of(slot, self._met, factors)
             self.of += len(values)
-            cones: dict[Op | None, LogCone | None] = {}
+            cones = {op: self._opened(slot, op) for op in dict.fromkeys(op for op, _ in values)}
+            possible = self._possible(slot, values, cones)
             explained = tried = 0
             for op, raw in sorted(values, key=lambda v: slot.change(*v).nearness):
                 made = partial(slot.change, op, raw, values[op, raw])
                 if self._over:
                     return
                 self.tried, tried = self.tried + 1, tried + 1
-                if op not in cones:
-                    cones[op] = self._opened(slot, op)
                 cone, value = cones[op], whole(raw)
-                if cone is not None and self.judge(cone, made, before, None, (PARAMETER, value)):
+                if cone is None or (op, raw) not in possible:
+                    continue
+                if self.judge(cone, made, before, None, (PARAMETER, value)):
                     explained += 1
                 if explained >= 2:  # of one limit the two simplest say enough
                     self.of -= len(values) - tried
                     break
+
+    def _possible(
+        self,
+        slot: NumberSlot,
+        values: Collection[tuple[Op | None, Fraction]],
+        cones: Mapping[Op | None, LogCone | None],
+    ) -> set[tuple[Op | None, Fraction]]:
+        """Those of the values of a limit that may explain something, by operator."""
+        found = set[tuple[Op | None, Fraction]]()
+        for op, cone in cones.items():
+            raws = {whole(raw): raw for other, raw in values if other is op}
+            if cone is not None:
+                some = self.passing(cone, slot.change(slot.op, slot.drawn), list(raws))
+                found |= {(op, raws[value]) for value in some}
+        return found
+
+    def passing(self, cone: LogCone, change: ChartChange, values: Sequence[Raw]) -> Collection[Raw]:
+        """Those of the values of the parameter of a part that need to be judged."""
+        return values
 
     def _opened(self, slot: NumberSlot, op: Op | None) -> LogCone | None:
         try:

@@ -126,6 +126,28 @@ class TrialBench:
             return False
         return wrong is None or (last is not None and wrong > last)
 
+    def passing(
+        self,
+        cone: LogCone,
+        number: int,
+        last: int,
+        name: str,
+        values: Sequence[Raw],
+        masked: Mapping[int, Known] = NOTHING,
+    ) -> list[Raw]:
+        """The values of an input with which a changed part explains a run from its start to a row.
+
+        Neighbours that lead to the same states are followed together, and so are all values between them.
+        """
+        run, place = self.runs[number], _place(cone, name)
+        if place is None or not run.run.from_power_up or any(run.missing):
+            return [v for v in values if self.passes(cone, number, last, (name, v), masked)]
+        rows = self._of(cone, number, self._prepared(cone))[: last + 1]
+        try:
+            return _ValuesTogether(cone, run, place).passing(rows, masked, sorted(values))
+        except (NeededInputs, _TooManyStates):
+            return [v for v in values if self.passes(cone, number, last, (name, v), masked)]
+
     def goes_further(self, at: tuple[int, int]) -> bool:
         """Whether a change that fails there has explained the first deviation of that run."""
         first = self._first[at[0]]
@@ -196,13 +218,7 @@ class TrialBench:
         """The first row that is wrong up to ``last``, where everything that the part reads is known."""
         estimator = StateEstimator(cone, self.runs[number].run.tolerance)
 
-        exact = all(apart is None for apart in estimator.apart)
-
-        def agrees(outputs: Known, logged: Known) -> bool:
-            if exact:
-                return all(a == b or a is None or b is None for a, b in zip(outputs, logged, strict=True))
-            return estimator.explains(BeliefOutcome((), (), outputs), logged)
-
+        agrees = estimator.agrees
         if len(cone.system.variables) <= FEW_VARIABLES:
             step = cache(step)
 
@@ -214,11 +230,11 @@ class TrialBench:
                 logged = masked[at]
             if len(options) == 1 and len(states) == 1:
                 states[0], outputs = step(states[0], options[0])
-                if outputs != logged and not agrees(outputs, logged):
+                if not agrees(outputs, logged):
                     return at
                 continue
             found = [step(before, given) for given in options for before in states]
-            states = list(dict.fromkeys(s for s, out in found if out == logged or agrees(out, logged)))
+            states = list(dict.fromkeys(s for s, out in found if agrees(out, logged)))
             if not states:
                 return at
             if len(states) > MOST_STATES:
@@ -242,12 +258,17 @@ class TrialBench:
         ``unknown``: an input that may have had any value, and the rows in which.
         """
         run = self.runs[number]
-        tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up)
+        tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up, tells_inputs=False)
         place = None if parameter is None else _place(cone, parameter[0])
         free = _place(cone, unknown[0])
         rows = self._of(cone, number, self._prepared(cone))
-        for at, (options, logged) in enumerate(rows):
-            columns = [tuple(dict.fromkeys(c)) for c in zip(*options, strict=True)]
+        begin = 0 if free is not None else _explained(tracker, run, rows, place, parameter)
+        for at in range(begin, len(rows)):
+            options, logged = rows[at]
+            if len(options) == 1:
+                columns = [(value,) for value in options[0]]
+            else:
+                columns = [tuple(dict.fromkeys(c)) for c in zip(*options, strict=True)]
             if place is not None and parameter is not None:
                 columns[place] = (parameter[1],)
             if free is not None and at in unknown[1]:
@@ -259,6 +280,78 @@ class TrialBench:
             if tracker.undecided is not None:
                 yield from ((later, None) for later in range(at + 1, len(rows)))
                 return
+
+
+def _explained(
+    tracker: Tracker, run: DecodedRun, rows: Rows, place: int | None, parameter: Parameter | None
+) -> int:
+    """Take the rows at the start of a run that are explained, as long as all is known; how many."""
+    if not run.run.from_power_up or any(run.missing):
+        return 0
+    step, agrees, state = tracker.cone.step, tracker.agrees, tracker.state
+    outcome, taken = None, 0
+    for options, logged in rows:
+        given = options[0]
+        if place is not None and parameter is not None:
+            given = (*given[:place], parameter[1], *given[place + 1 :])
+        if len(options) > 1 or None in given:
+            break
+        after, outputs = step(state, given)
+        if not agrees(outputs, logged):
+            break
+        outcome, state = BeliefOutcome(state, after, outputs), after
+        taken += 1
+    if outcome is not None:
+        tracker.settle(outcome, rows[taken - 1][1], taken)
+    return taken
+
+
+_Together = tuple[tuple[Known, ...], Sequence[Raw]]
+"""The states that a part may be in with each of some values of an input."""
+
+
+class _ValuesTogether:
+    """Follows a run with many values of one input, which is at ``place``."""
+
+    def __init__(self, cone: LogCone, run: DecodedRun, place: int) -> None:
+        estimator = StateEstimator(cone, run.run.tolerance)
+        self._step, self._place = cone.step, place
+        self._agrees, self._power_up = estimator.agrees, estimator.power_up()
+
+    def passing(self, rows: Rows, masked: Mapping[int, Known], values: Sequence[Raw]) -> list[Raw]:
+        """Those that explain all rows."""
+        groups: list[_Together] = [(self._power_up, values)] if values else []
+        for at, (options, logged) in enumerate(rows):
+            wanted = masked.get(at, logged)
+            groups = [after for group in groups for after in self._after(group, options, wanted)]
+        return [value for _, some in groups for value in some]
+
+    def _after(self, group: _Together, options: Sequence[Known], logged: Known) -> list[_Together]:
+        before, values = group
+        first = self._one(before, options, logged, values[0])
+        if len(values) == 1 or self._one(before, options, logged, values[-1]) == first:
+            return [(first, values)] if first else []
+        middle = len(values) // 2
+        halves = (before, values[:middle]), (before, values[middle:])
+        return [after for half in halves for after in self._after(half, options, logged)]
+
+    def _one(
+        self, before: Sequence[Known], options: Sequence[Known], logged: Known, value: Raw
+    ) -> tuple[Known, ...]:
+        """The states after a row with one value; none if the value explains no outputs of the row."""
+        place = self._place
+        try:
+            found = [
+                self._step(state, (*given[:place], value, *given[place + 1 :]))
+                for given in options
+                for state in before
+            ]
+        except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
+            return ()
+        states = tuple(dict.fromkeys(s for s, out in found if self._agrees(out, logged)))
+        if len(states) > MOST_STATES:
+            raise _TooManyStates
+        return states
 
 
 class _TooManyStates(Exception):

@@ -125,6 +125,11 @@ def _of_node(node: Expr, whole: bool) -> Iterator[tuple[str, Expr]]:
                 yield "operands", replace(node, args=(right, left))
         case Apply(Op.AND | Op.OR, (_, _, _, *_) as conditions):
             yield from (("only", condition) for condition in conditions)
+        case Apply(Op.EQ, (Expr() as left, Const(value, Enum(_, members) as sort))):
+            for _, number in members:
+                if number != value:
+                    other = replace(node, args=(left, Const(number, sort)))
+                    yield "also", Apply(Op.OR, (node, other), Bool())
         case Const(value, Enum(_, members) as sort):
             for _, number in members:
                 if number != value:
