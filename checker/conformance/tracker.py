@@ -50,8 +50,9 @@ class Tracker:
     """The states that explain the log so far.
 
     After a tick that none explains, the charts go on from where they are; if they do not explain the next
-    one either, from any state that has the logged outputs.  ``tells_inputs``: whether a mismatch says what was
-    read.
+    one either, from any state that has the logged outputs.
+
+    ``tells_inputs``: whether a mismatch says what was read.
     """
 
     def __init__(

@@ -307,9 +307,7 @@ class _CoverSearch(HypothesisSearch):
         found = set[Raw]()
         for one in self._witnesses:
             if one.place in concerned and len(found) < len(values):
-                found |= set(
-                    self._bench.passing(cone, one.number, one.last, PARAMETER, values, one.masked)
-                )
+                found |= set(self._bench.passing(cone, one.number, one.last, PARAMETER, values, one.masked))
         return found
 
     def _masked(self, one: Witness) -> Witness:
@@ -375,9 +373,10 @@ class _CoverSearch(HypothesisSearch):
         return system, self._cone(system)
 
     def _ahead(self) -> CoveringChange | None:
-        """A change that explains more than one that makes nothing wrong, and that too, but makes something wrong.
+        """A change that makes something wrong, and explains more than others, and all that one of these does.
 
-        The other one explains a few cases by chance, in which this one and another cause mask each other.
+        These make nothing wrong, but explain a few cases by chance where this one and another cause mask each
+        other.
         """
         partly = [one for one in self._partly if self._good and one.passed > self._passed_by_good]
         bridges = map(self._bridge, sorted(partly, key=lambda one: one.rank)[:NEAREST])
@@ -406,7 +405,7 @@ class _CoverSearch(HypothesisSearch):
         return sorted(found, key=lambda one: -one.cases)
 
     def _bridge(self, one: Unexplaining) -> CoveringChange | None:
-        """What a change does that makes something wrong, if nothing is earlier; ``cases`` is what it gains."""
+        """What a change does, if it makes nothing wrong earlier than now; ``cases`` is what it gains."""
         system, cone = self._made(one.change)
         wrong = None if cone is None else self._judge.mostly_right(one.bench, self._base, cone)
         if wrong is None or system is None:

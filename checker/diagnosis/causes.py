@@ -1,76 +1,22 @@
 """Deviations grouped by cause: those that one change of the charts explains, or that evidence joins."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from hashlib import sha256
+from functools import partial
 
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.recording import Recording
-from rovercheck.checker.diagnosis.attribution import attributed
-from rovercheck.checker.diagnosis.cause_cover import covered
-from rovercheck.checker.diagnosis.change import ChartChange
-from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector, PartEvidence
-from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
+from rovercheck.checker.diagnosis.part_causes import (
+    CutSearch,
+    DeviationCause,
+    PartChanges,
+    SearchedPart,
+    searched,
+)
+from rovercheck.checker.process.beside import beside
+from rovercheck.checker.process.pool import cores
 from rovercheck.spec_model.abstraction import Board
-
-
-@dataclass(frozen=True)
-class DeviationCause:
-    """Deviations of one cause, those that were met in most runs first.
-
-    Each is in no other cause, unless it takes two together: ``beside`` says that of all of these another
-    change is the cause, too, and more.  ``change`` explains them; a stamp that is taken
-    otherwise may show in several parts, and they are deviations of all of these.  Where it is ``None``, other
-    values of an ``input`` do, told with the stamp that the implementation computes it from; where that is
-    empty, too, nothing does.  ``alone``: whether the changes found in the part explain everything that it
-    does otherwise.  ``runs`` and ``ticks`` are those in which some of them is met in one part.
-    """
-
-    part: str
-    change: ChartChange | None
-    deviations: tuple[Deviation, ...]
-    alone: bool = False
-    input: str = ""
-    runs: int = 0
-    ticks: int = 0
-    beside: bool = False
-
-    @property
-    def first(self) -> Deviation:
-        """The one that is told in full."""
-        return self.deviations[0]
-
-    @property
-    def parts(self) -> tuple[str, ...]:
-        """The parts that deviate."""
-        return tuple(dict.fromkeys((self.part, *(d.scope.part for d in self.deviations))))
-
-    def id(self, board: str) -> str:
-        """A short name: that of the change, or of the first deviation."""
-        if self.change is None:
-            return self.first.scope.id(board)
-        digest = sha256(repr((board, *self.change.key)).encode()).hexdigest()[:6]
-        return f"{board}-{self.change.chart}-{digest}"
-
-
-@dataclass(frozen=True)
-class CutSearch:
-    """A part of which not all changes were tried in the time: ``tried`` ``of`` those met until then."""
-
-    part: str
-    tried: int
-    of: int
-    seconds: float
-
-
-@dataclass(frozen=True)
-class PartChanges:
-    """All changes that were found of a part, one on top of the other, and what they explain together."""
-
-    part: str
-    changes: tuple[ChartChange, ...]
-    deviations: tuple[Deviation, ...]
 
 
 @dataclass(frozen=True)
@@ -114,46 +60,33 @@ def cause_groups(
     parts: Iterable[str],
     seconds: float,
     progress: Callable[[str], None] = lambda _: None,
+    at_once: int = 0,
 ) -> CauseGroups:
     """The deviations that are met in the evidence by cause, in the order of the first of each.
 
-    Causes are looked for in ``parts``, for so many ``seconds`` of the processor in each.
+    Causes are looked for in ``parts``, for so many ``seconds`` of the processor in each, ``at_once`` in so
+    many: as a rule as many as there are processors.
     """
     names = set(parts)
-    found: dict[str, list[DeviationCause]] = {}
-    cut: list[CutSearch] = []
-    changes: list[PartChanges] = []
-    wanted = [one for one in evidence.parts if one.name in names]
-    for number, part in enumerate(wanted, 1):
-        progress(f"looking for causes in {part.name}, part {number} of {len(wanted)}")
-        told = {id(d) for causes in found.values() for c in causes for d in c.deviations}
-        own = [d for d in deviations if d.scope.part == part.name and id(d) not in told]
-        cover = covered(part, own, seconds)
-        if cover.late:
-            cut.append(CutSearch(part.name, cover.tried, cover.of, cover.seconds))
-        found.setdefault(part.name, []).extend(_of_part(part, cover))
-        explained = frozenset[int]().union(*(places for _, places in cover.changes))
-        made = tuple(change for change, _ in cover.changes)
-        changes.append(PartChanges(part.name, made, _at(cover, explained)))
-    causes = list(_together(one for some in found.values() for one in some))
+    wanted: dict[str, list[PartEvidence]] = {}
+    for one in evidence.parts:
+        if one.name in names:
+            wanted.setdefault(one.name, []).append(one)
+    works = [partial(searched, some, deviations, seconds) for some in wanted.values()]
+    done: dict[int, list[SearchedPart]] = {}
+    said = f"looking for causes in {len(works)} parts"
+    progress(said)
+    for number, found in beside(works, at_once or cores()):
+        done[number] = found
+        progress(f"{said}, {len(done)} of them searched")
+    every = [one for number in sorted(done) for one in done[number]]
+    cut = [one.cut for one in every if one.cut is not None]
+    causes = list(_together(cause for one in every for cause in one.found(deviations)))
     told = {id(d) for one in causes for d in one.deviations}
     causes += [_alone(d) for d in deviations if id(d) not in told]
     places = {id(d): place for place, d in enumerate(deviations)}
     inorder = sorted(causes, key=lambda c: places[id(c.first)])
-    return CauseGroups(tuple(inorder), tuple(cut), parts=tuple(changes))
-
-
-def _of_part(part: PartEvidence, cover: PartCover) -> list[DeviationCause]:
-    """The causes of a part: its changes, then inputs that are read otherwise."""
-    found = [
-        DeviationCause(part.name, a.change, _at(cover, a.places), not any(cover.base), beside=a.beside)
-        for a in attributed(cover)
-    ]
-    for name, places in explained_by_inputs(cover):
-        told = f"{name}, which is computed from {stamps(part)[name]}"
-        found.append(DeviationCause(part.name, None, _at(cover, places), False, told))
-    keys = {id(one): set(cover.rows[n]) for n, one in enumerate(cover.deviations)}
-    return [_counted(one, keys) for one in found]
+    return CauseGroups(tuple(inorder), tuple(cut), parts=tuple(one.together(deviations) for one in every))
 
 
 def _together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
@@ -180,16 +113,6 @@ def _same(one: DeviationCause) -> object:
     if one.change is None:
         return id(one)
     return one.change.key if one.change.reading is None else one.change.reading
-
-
-def _at(cover: PartCover, places: Iterable[int]) -> tuple[Deviation, ...]:
-    return tuple(cover.deviations[n] for n in sorted(places))
-
-
-def _counted(cause: DeviationCause, keys: Mapping[int, set[tuple[int, int]]]) -> DeviationCause:
-    """With the runs and the steps in which some deviation of it is met, each once."""
-    rows = set[tuple[int, int]]().union(*(keys[id(one)] for one in cause.deviations))
-    return replace(cause, runs=len({run for run, _ in rows}), ticks=len(rows))
 
 
 def _alone(one: Deviation) -> DeviationCause:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rovercheck.spec_model.abstraction.readings import StampReading
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
 ChangeKind = Literal[
@@ -52,10 +53,10 @@ KINDS: dict[str, str] = {
 """The kinds of changes, in words; the nearest first."""
 
 TIERS: dict[str, float] = {
-    "interpretation": 0, "repair": 1, "comparison": 2, "limit": 2, "timer": 2, "constant": 3,
+    "interpretation": 0, "initial": 0.9, "repair": 1, "comparison": 2, "limit": 2, "timer": 2, "constant": 3,
     "joined": 3.1, "never": 3.15, "dropped": 3.2, "order": 3.2, "target": 3.3, "entry": 3.3, "missing": 3.4,
     "always": 3.6, "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "signal": 5, "shared": 5,
-    "stamp": 5, "initial": 6, "held": 6, "unread": 6, "enabled": 6, "frozen": 7, "dead": 7, "extra": 8,
+    "stamp": 5, "held": 6, "unread": 6, "enabled": 6, "frozen": 7, "dead": 7, "extra": 8,
 }  # fmt: skip
 """How near a kind of change lies to the charts; 3 where nothing is said."""
 
@@ -119,4 +120,9 @@ class ChartChange:
         return (TIERS.get(self.kind, 3), self.distance)
 
 
-__all__ = ["KINDS", "TIERS", "ChangeKind", "ChartChange", "Nearness", "place_text"]
+def only_told() -> System:
+    """In place of what makes a change that was found elsewhere.  Raises ``ModelError``."""
+    raise ModelError("A change that was found is made anew from its key, as one of a variant.")
+
+
+__all__ = ["KINDS", "TIERS", "ChangeKind", "ChartChange", "Nearness", "only_told", "place_text"]

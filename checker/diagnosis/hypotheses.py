@@ -75,10 +75,10 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
 
 
 REWRITES: Mapping[str, ChangeKind] = {
-    "bit": "bit", "only": "dropped", "also": "joined", "operands": "operands", "member": "member", "negated": "negated",
-    "signal": "signal", "exchanged": "exchanged", "members": "exchanged", "bits": "exchanged",
-    "target": "target", "order": "order", "timer": "timer", "extra": "extra", "shared": "shared",
-    "entry": "entry",
+    "bit": "bit", "only": "dropped", "also": "joined", "operands": "operands", "member": "member",
+    "negated": "negated", "signal": "signal", "exchanged": "exchanged", "members": "exchanged",
+    "bits": "exchanged", "target": "target", "order": "order", "timer": "timer", "extra": "extra",
+    "shared": "shared", "entry": "entry",
 }  # fmt: skip
 
 TOLD = {
@@ -110,7 +110,7 @@ def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeK
     if one.kind in ("members", "bits", "only", "and-or", "also"):
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
-    if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", COMPARED, ASSIGNED):
+    if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", "arrays", COMPARED, ASSIGNED):
         text += f", {place_text(one.site)}"
     make = partial(_with_part, system, part, one)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)
@@ -300,6 +300,6 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 
 __all__ = [
-    "beginning_changes", "delay_changes", "during_changes", "extra_changes", "mutant_changes", "rewrite_changes", "signals_of",
-    "stamp_changes", "timer_changes", "written_changes",
+    "beginning_changes", "delay_changes", "during_changes", "extra_changes", "mutant_changes",
+    "rewrite_changes", "signals_of", "stamp_changes", "timer_changes", "written_changes",
 ]  # fmt: skip

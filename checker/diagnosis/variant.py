@@ -11,6 +11,7 @@ from rovercheck.checker.diagnosis.change import KINDS, ChartChange
 from rovercheck.checker.diagnosis.hypotheses import (
     beginning_changes,
     delay_changes,
+    during_changes,
     extra_changes,
     mutant_changes,
     rewrite_changes,
@@ -170,6 +171,9 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
         case "initial":
             yield from beginning_changes(system, only)
             yield from mutant_changes(system, only)
+        case "missing":
+            yield from mutant_changes(system, only)
+            yield from during_changes(system, only)
         case _:
             yield from mutant_changes(system, only)
             yield from rewrite_changes(system, signals_of(board), only)

@@ -24,7 +24,7 @@ class OtherDuring:
 def other_durings(system: System, chart: Chart) -> Iterator[OtherDuring]:
     """Each superstate whose during actions, all or one, are not executed in a state inside it; or only there.
 
-    Where all are not, also with the blocks that only this chart and these actions read: functions that they call.
+    Where all are not, also with blocks that nothing else reads: functions that these actions call.
     """
     for path, state in chart.states.items():
         called = [block.name for block in _called(system, chart, state.during)]

@@ -16,7 +16,7 @@ FEWEST_CELLS = 3
 
 
 def shared_memory(part: Chart | Block) -> Iterator[Rewrite]:
-    """Two data of a part in one place of memory; of arrays only as wholes."""
+    """Two data of a part in one place of memory; of arrays only as wholes, with how many cells are in use."""
     cells = _cells(part.written)
     data = [v for n, v in part.written.items() if n not in cells]
     for one, two in combinations(data, 2):
@@ -26,15 +26,31 @@ def shared_memory(part: Chart | Block) -> Iterator[Rewrite]:
     for first, second in _families(part):
         pairs = dict(_pairs(part, first, second))
         yield Rewrite("shared", "buffers", second, first, partial(with_memory, part, pairs))
+    for first, second in combinations(_arrays(part.written), 2):
+        own, other = _named_like(part, first), _named_like(part, second)
+        if [(n.removeprefix(first), v.domain) for n, v in own.items()] == [
+            (n.removeprefix(second), v.domain) for n, v in other.items()
+        ]:
+            instead = dict(zip(other, own.values(), strict=True))
+            yield Rewrite("shared", "arrays", second, first, partial(with_memory, part, instead))
+
+
+def _named_like(part: Chart | Block, head: str) -> dict[str, Var]:
+    """The cells of an array, and what is named like them: how many are in use."""
+    return {name: var for name, var in sorted(part.written.items()) if name.startswith(head)}
 
 
 def _cells(names: Iterable[str]) -> frozenset[str]:
-    """Names that differ in one number, as those of the cells of an array do."""
-    found: dict[str, list[str]] = {}
+    return frozenset(name for some in _arrays(names).values() for name in some)
+
+
+def _arrays(names: Iterable[str]) -> dict[str, list[str]]:
+    """Names that differ in one number, as those of the cells of an array do, by what stands before it."""
+    found: dict[tuple[str, ...], list[str]] = {}
     for name in names:
         if cell := re.fullmatch(r"(.*?)\d+(\D*)", name):
-            found.setdefault("#".join(cell.groups()), []).append(name)
-    return frozenset(name for some in found.values() if len(some) >= FEWEST_CELLS for name in some)
+            found.setdefault(cell.groups(), []).append(name)
+    return {head: some for (head, _), some in found.items() if len(some) >= FEWEST_CELLS}
 
 
 def _families(part: Chart | Block) -> Iterator[tuple[str, str]]:

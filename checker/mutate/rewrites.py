@@ -128,8 +128,8 @@ def _of_node(node: Expr, whole: bool) -> Iterator[tuple[str, Expr]]:
         case Apply(Op.EQ, (Expr() as left, Const(value, Enum(_, members) as sort))):
             for _, number in members:
                 if number != value:
-                    other = replace(node, args=(left, Const(number, sort)))
-                    yield "also", Apply(Op.OR, (node, other), Bool())
+                    also = Apply(Op.EQ, (left, Const(number, sort)), Bool())
+                    yield "also", Apply(Op.OR, (node, also), Bool())
         case Const(value, Enum(_, members) as sort):
             for _, number in members:
                 if number != value:

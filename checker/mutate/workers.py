@@ -12,8 +12,8 @@ from rovercheck.checker.mutate.plan import PlannedMutant
 from rovercheck.checker.process.faults import Fault, described, is_fault, report
 from rovercheck.checker.process.faults import listening as attending
 from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import GrantedTime, Jobs, Order, Pool, PoolEvent
-from rovercheck.checker.verify.searches import SLACK, cores
+from rovercheck.checker.process.pool import GrantedTime, Jobs, Order, Pool, PoolEvent, cores
+from rovercheck.checker.verify.searches import SLACK
 
 
 @dataclass(frozen=True)

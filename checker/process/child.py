@@ -25,7 +25,7 @@ _PR_SET_PDEATHSIG = 1  # prctl(2)
 def child() -> None:
     """The main program of a child: orders on standard input, messages on standard output."""
     collect_seldom()
-    _end_with_parent()
+    end_with_parent()
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not look like a message
     sys.setrecursionlimit(DEEP)
@@ -80,7 +80,7 @@ def _listen(orders: SimpleQueue[bytes]) -> None:
     os._exit(1)
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """Have Linux kill this process with its parent: a solver that holds Python's lock stops ``_listen``."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -95,4 +95,4 @@ def _confine(memory: int | None) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
 
 
-__all__ = ["child"]
+__all__ = ["child", "end_with_parent"]

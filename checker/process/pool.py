@@ -1,5 +1,6 @@
 """A few child processes that share a list of orders; one that takes too long is killed and replaced."""
 
+import os
 from collections.abc import Callable, Generator, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
@@ -56,6 +57,11 @@ class Cluster:
 
 Jobs = int | Cluster
 """Children that work at a time: so many here, or those of a cluster."""
+
+
+def cores() -> int:
+    """The processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """Searches in child processes: tasks go out, verdicts come back as they are found."""
 
-import os
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
@@ -12,7 +11,7 @@ from rovercheck.checker.certify.outcome import Rejected, Undecided
 from rovercheck.checker.engines import AUTO, Engine, Limits, Stage
 from rovercheck.checker.model.kept_invariants import Invariants
 from rovercheck.checker.process.faults import Fault, report
-from rovercheck.checker.process.pool import Cluster, Jobs, Order, Pool, PoolEvent
+from rovercheck.checker.process.pool import Cluster, Jobs, Order, Pool, PoolEvent, cores
 from rovercheck.checker.results.verdict import Proved, StoredRun, Unknown, Verdict
 from rovercheck.checker.system.formula_json import Tree
 from rovercheck.checker.verify.result import Result, limited
@@ -85,11 +84,6 @@ class MachineWarning:
 
 
 TaskEvent = SearchActivity | SearchEnd | MachineWarning | Result
-
-
-def cores() -> int:
-    """The processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def events(

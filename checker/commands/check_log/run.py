@@ -21,8 +21,8 @@ from rovercheck.checker.compare.variants import varied
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import LogError, LogResult
 from rovercheck.checker.model.variant import Variant
+from rovercheck.checker.process.pool import cores
 from rovercheck.checker.results.campaign import CampaignRecord
-from rovercheck.checker.verify.searches import cores
 from rovercheck.spec_model.abstraction import boards
 
 GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)

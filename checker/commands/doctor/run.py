@@ -156,7 +156,7 @@ def _program(names: str, adds: str) -> DoctorFinding:
 
 
 def _machine() -> Iterator[DoctorFinding]:
-    from rovercheck.checker.verify.searches import cores
+    from rovercheck.checker.process.pool import cores
 
     yield DoctorFinding(
         "machine", "processors", str(cores()), True, True, "searches at a time, unless --jobs says"

@@ -13,9 +13,9 @@ from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
 from rovercheck.checker.mutate.kills import Kill, kills, still
 from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import Jobs, Order, Pool
+from rovercheck.checker.process.pool import Jobs, Order, Pool, cores
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.verify.searches import SLACK, cores
+from rovercheck.checker.verify.searches import SLACK
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 

@@ -5,6 +5,7 @@ from contextlib import closing
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import SearchWatch
+from rovercheck.checker.process.pool import cores
 from rovercheck.checker.store.times import keep_times, known_times
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import (
@@ -13,7 +14,6 @@ from rovercheck.checker.verify.searches import (
     SearchEnd,
     SearchesPlanned,
     SearchSettings,
-    cores,
     events,
 )
 from rovercheck.properties.forms import Property

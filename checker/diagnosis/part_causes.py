@@ -1,0 +1,144 @@
+"""The causes of what one part of a board does otherwise, as they come from where they are looked for."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from hashlib import sha256
+
+from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.diagnosis.attribution import attributed
+from rovercheck.checker.diagnosis.cause_cover import covered
+from rovercheck.checker.diagnosis.change import ChartChange, only_told
+from rovercheck.checker.diagnosis.cover import PartCover
+from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
+
+
+@dataclass(frozen=True)
+class DeviationCause:
+    """Deviations of one cause, those that were met in most runs first.
+
+    Each is in no other cause, unless it takes two together: ``beside`` says that of all of these another
+    change is the cause, too, and more.  ``change`` explains them; a stamp that is taken
+    otherwise may show in several parts, and they are deviations of all of these.  Where it is ``None``, other
+    values of an ``input`` do, told with the stamp that the implementation computes it from; where that is
+    empty, too, nothing does.  ``alone``: whether the changes found in the part explain everything that it
+    does otherwise.  ``runs`` and ``ticks`` are those in which some of them is met in one part.
+    """
+
+    part: str
+    change: ChartChange | None
+    deviations: tuple[Deviation, ...]
+    alone: bool = False
+    input: str = ""
+    runs: int = 0
+    ticks: int = 0
+    beside: bool = False
+
+    @property
+    def first(self) -> Deviation:
+        """The one that is told in full."""
+        return self.deviations[0]
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The parts that deviate."""
+        return tuple(dict.fromkeys((self.part, *(d.scope.part for d in self.deviations))))
+
+    def id(self, board: str) -> str:
+        """A short name: that of the change, or of the first deviation."""
+        if self.change is None:
+            return self.first.scope.id(board)
+        digest = sha256(repr((board, *self.change.key)).encode()).hexdigest()[:6]
+        return f"{board}-{self.change.chart}-{digest}"
+
+
+@dataclass(frozen=True)
+class CutSearch:
+    """A part of which not all changes were tried in the time: ``tried`` ``of`` those met until then."""
+
+    part: str
+    tried: int
+    of: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class PartChanges:
+    """All changes that were found of a part, one on top of the other, and what they explain together."""
+
+    part: str
+    changes: tuple[ChartChange, ...]
+    deviations: tuple[Deviation, ...]
+
+
+@dataclass(frozen=True)
+class SearchedPart:
+    """What was found in a part, with the deviations by their places among all: it may come from elsewhere."""
+
+    part: str
+    causes: tuple[tuple[DeviationCause, tuple[int, ...]], ...]
+    changes: tuple[ChartChange, ...]
+    explained: tuple[int, ...]
+    cut: CutSearch | None
+
+    def found(self, deviations: Sequence[Deviation]) -> list[DeviationCause]:
+        """The causes, with these deviations."""
+        return [replace(one, deviations=tuple(deviations[n] for n in own)) for one, own in self.causes]
+
+    def together(self, deviations: Sequence[Deviation]) -> PartChanges:
+        """All changes of the part, with these deviations."""
+        return PartChanges(self.part, self.changes, tuple(deviations[n] for n in self.explained))
+
+
+def searched(
+    evidence: Sequence[PartEvidence], deviations: Sequence[Deviation], seconds: float
+) -> list[SearchedPart]:
+    """The causes of one part that was followed in runs of several columns, first where it deviates most.
+
+    What is explained there is not looked at again.
+    """
+    found: list[SearchedPart] = []
+    for part in sorted(evidence, key=lambda one: -one.cases):
+        told = {n for one in found for _, own in one.causes for n in own}
+        places = [n for n, d in enumerate(deviations) if d.scope.part == part.name and n not in told]
+        found.append(_searched(part, [deviations[n] for n in places], places, seconds))
+    return found
+
+
+def _searched(
+    part: PartEvidence, deviations: Sequence[Deviation], places: Sequence[int], seconds: float
+) -> SearchedPart:
+    cover = covered(part, deviations, seconds)
+    late = CutSearch(part.name, cover.tried, cover.of, cover.seconds) if cover.late else None
+    explained = frozenset[int]().union(*(own for _, own in cover.changes))
+    return SearchedPart(
+        part.name,
+        tuple((_told(one), tuple(places[n] for n in sorted(own))) for one, own in _causes(part, cover)),
+        tuple(replace(change, make=only_told) for change, _ in cover.changes),
+        tuple(places[n] for n in sorted(explained)),
+        late,
+    )
+
+
+def _told(one: DeviationCause) -> DeviationCause:
+    return one if one.change is None else replace(one, change=replace(one.change, make=only_told))
+
+
+def _causes(part: PartEvidence, cover: PartCover) -> Iterable[tuple[DeviationCause, Iterable[int]]]:
+    """The changes of a part, then inputs that are read otherwise, with the places of their deviations."""
+    for a in attributed(cover):
+        one = DeviationCause(part.name, a.change, (), not any(cover.base), beside=a.beside)
+        yield _counted(one, cover, a.places), a.places
+    for name, places in explained_by_inputs(cover):
+        told = f"{name}, which is computed from {stamps(part)[name]}"
+        one = DeviationCause(part.name, None, (), False, told)
+        yield _counted(one, cover, places), places
+
+
+def _counted(cause: DeviationCause, cover: PartCover, places: Iterable[int]) -> DeviationCause:
+    """With the runs and the steps in which some deviation of it is met, each once."""
+    rows = {row for place in places for row in cover.rows[place]}
+    return replace(cause, runs=len({run for run, _ in rows}), ticks=len(rows))
+
+
+__all__ = ["CutSearch", "DeviationCause", "PartChanges", "SearchedPart", "searched"]
