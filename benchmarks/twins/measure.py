@@ -152,23 +152,28 @@ def gone(firmware: Firmware, folder: Path, effort: TwinEffort, with_known: tuple
 
 @dataclass(frozen=True)
 class LoggedDifferences:
-    """The logs of a twin, and the differences that show alone in what each of them logs."""
+    """The logs of a twin, and the differences that show in what each of them logs."""
 
     folder: Path
     exposed: Mapping[str, frozenset[str]]
-    """Of each log the differences that it shows."""
+    """Of each log the differences that it shows alone, beside the firmware without any."""
     shown: Mapping[str, Mapping[str, frozenset[str]]]
-    """Of each log and difference the outputs in which it shows."""
+    """Of each log and difference the outputs in which it shows, alone or beside all others."""
 
 
 def recorded(firmware: Firmware, folder: Path, number: int) -> LoggedDifferences:
-    """Writes the logs; each difference alone, on the inputs of each log, says what there is to be found."""
+    """Writes the logs, and says what there is to be found in each of them.
+
+    On its inputs the firmware with each difference alone is compared with the one without any, and the one
+    with all others with the twin: what two of them do together shows alone in nothing.
+    """
     place = folder / "logs"
     place.mkdir()
     every = list(logs(firmware, number))
     with running(firmware, firmware.differences) as twin:
         for log in every:
             written(twin, log, firmware.board, place)
+        with_all = {log.name: outputs(twin, log.inputs) for log in every}
     with running(firmware) as conforming:
         required = {log.name: outputs(conforming, log.inputs) for log in every}
     shown: dict[str, dict[str, frozenset[str]]] = {log.name: {} for log in every}
@@ -186,6 +191,11 @@ def recorded(firmware: Firmware, folder: Path, number: int) -> LoggedDifferences
         )
         for log in every
     }
+    for one in firmware.differences:
+        with running(firmware, [other for other in firmware.differences if other is not one]) as without:
+            for log in every:
+                given = outputs(without, log.inputs)
+                shown[log.name][one.id] |= _logged(with_all[log.name], given, left[log.name])
     return LoggedDifferences(place, exposed, shown)
 
 
@@ -206,6 +216,7 @@ def folder_of_logs(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iter
     exposed = frozenset().union(*made.exposed.values())
     yield f"logs: {len(made.exposed)} written, {len(exposed)} differences show ({monotonic() - began:.0f} s)"
     yield from _checked(firmware, made)
+    yield from _caused(firmware, made, exposed, effort)
     yield from _diagnosed(firmware, made, exposed, effort)
 
 
@@ -234,6 +245,34 @@ def _checked(firmware: Firmware, made: LoggedDifferences) -> Iterator[str]:
     )
     yield from (f"  REFUSED {row['log']}: {row['error']}" for row in refused)
     yield from (f"  FALSE {text} ({times})" for text, times in of_none.most_common(20))
+
+
+def _caused(
+    firmware: Firmware, made: LoggedDifferences, exposed: frozenset[str], effort: TwinEffort
+) -> Iterator[str]:
+    """What ``check-log --causes`` names over all logs."""
+    began = monotonic()
+    done = command("check-log", str(made.folder), "--json", "--causes", "--seconds", str(effort.seconds))
+    try:
+        findings = json.loads(done.stdout)["campaign"]["findings"]
+    except (ValueError, KeyError):
+        yield f"check-log --causes: NO REPORT, exit code {done.returncode}: {done.stderr.strip()[-500:]}"
+        return
+    told = [one for one in findings if one["change"]]
+    shown = [one for one in firmware.differences if one.id in exposed]
+    right = matched({d.id: [n for n, one in enumerate(told) if names(d, one["change"])] for d in shown})
+    others = [
+        one
+        for n, one in enumerate(told)
+        if n not in right.values() and not any(names(d, one["change"]) for d in firmware.differences)
+    ]
+    yield (
+        f"check-log --causes: {len(right)} of {len(shown)} causes named right, {len(findings)} findings, of "
+        f"which {len(told)} have a change, {len(others)} one that is not planted "
+        f"({monotonic() - began:.0f} s, exit code {done.returncode})"
+    )
+    yield from (f"  NOT NAMED {d.id}: {d.says}" for d in shown if d.id not in right)
+    yield from (f"  OTHER {one['cause']}" for one in others)
 
 
 def _planted_in(firmware: Firmware, made: LoggedDifferences, log: str, found: Collection[str]) -> bool:

@@ -109,6 +109,8 @@ class CampaignFinding:
     terms: KnownTerms | None = None
     cause: str = ""
     """The change of the charts that explains it, in words, where one was looked for and found."""
+    change: tuple[str, ...] = ()
+    """That change as a variant holds it: of what kind, in which chart, where, from what, to what."""
     places: tuple[Place, ...] = ()
     """Where to look for it, the best first: lines that assign the output, a map, or the recording."""
     key: str = ""

@@ -31,7 +31,7 @@ class LogOptions:
     write_known: Path | None = None
     jobs: int | None = None
     causes: bool = False
-    seconds: float = 60.0
+    seconds: float = 120.0
 
 
 @click.command(short_help="Check logs recorded on a board.")

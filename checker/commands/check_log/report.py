@@ -82,7 +82,7 @@ class LogReport:
         met = sightings(cause.deviations, groups, every, TICK_MS, lines=True)
         more = [("also", also(one, cause, LOGS)) for one in cause.deviations[1:]]
         found = deviation_finding(board, cause.first, self.campaign.judgements[board], OF_LOGS, met, more)
-        found = replace(found, cause=says(cause))
+        found = replace(found, cause=says(cause), change=cause.change.key if cause.change else ())
         place = Place(str(self.folder / found.first.recording), found.first.line)
         if isinstance(drawn, str):
             return replace(found, undrawn=drawn, places=(place,))

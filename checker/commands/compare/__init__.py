@@ -34,7 +34,7 @@ class ComparisonOptions:
     known: Path | None = None
     write_known: Path | None = None
     causes: bool | None = None
-    seconds: float = 60.0
+    seconds: float = 120.0
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")

@@ -122,7 +122,9 @@ class BoardRecord:
         for cause in self.of.findings:
             group = [met[one.scope] for one in cause.deviations]
             outputs = list(dict.fromkeys(name for one in group for name in one.outputs))
-            yield replace(self._finding(cause, group), cause=says(cause), places=places.of(outputs))
+            change = cause.change.key if cause.change else ()
+            found = replace(self._finding(cause, group), cause=says(cause), change=change)
+            yield replace(found, places=places.of(outputs))
         for failure in self._failures:
             yield replace(self._failed(failure), places=places.of(()))
 

@@ -93,6 +93,18 @@ class TermsRow(TypedDict):
     until: str | None
 
 
+class FindingChangeRow(TypedDict):
+    """A change of the charts, as a variant holds it."""
+
+    kind: str
+    chart: str
+    at: str
+    old: str
+    """What stands there as drawn."""
+    new: str
+    """What stands there as changed."""
+
+
 class CampaignFindingRow(TypedDict):
     """A deviation, a broken property, or that the implementation does not answer."""
 
@@ -104,6 +116,8 @@ class CampaignFindingRow(TypedDict):
     evidence: list[LabelledText]
     cause: str
     """The change of the charts that explains it; empty where none was looked for or found."""
+    change: FindingChangeRow | None
+    """That change; null where there is none, or where an input explains it."""
     first: OccurrenceRow
     worst: OccurrenceRow
     sightings: list[SightingRow]
@@ -168,6 +182,7 @@ def _finding(one: CampaignFinding) -> CampaignFindingRow:
         "says": one.says,
         "evidence": [{"label": label, "text": text} for label, text in one.evidence],
         "cause": one.cause,
+        "change": _change(*one.change) if one.change else None,
         "first": _occurrence(one.first),
         "worst": _occurrence(one.worst),
         "sightings": [_sighting(s) for s in one.sightings],
@@ -183,6 +198,10 @@ def _finding(one: CampaignFinding) -> CampaignFindingRow:
         },
         "places": [row for place in one.places if (row := place_row(place)) is not None],
     }
+
+
+def _change(kind: str, chart: str, at: str, old: str, new: str) -> FindingChangeRow:
+    return {"kind": kind, "chart": chart, "at": at, "old": old, "new": new}
 
 
 def _occurrence(one: CampaignOccurrence) -> OccurrenceRow:
