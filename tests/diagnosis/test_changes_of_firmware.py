@@ -1,21 +1,27 @@
 """Changes as firmware has them: a function's fault in all places, a constant between those of a grid."""
 
+from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import pytest
 
 from rovercheck.checker.conformance.cones import cone_groups
 from rovercheck.checker.conformance.estimator import StateEstimator, TooMany
-from rovercheck.checker.conformance.numbers import number_between, value_of
+from rovercheck.checker.conformance.numbers import PARAMETER, number_between, value_of
 from rovercheck.checker.conformance.program import Known
+from rovercheck.checker.diagnosis import trial
 from rovercheck.checker.diagnosis.change import ChartChange
-from rovercheck.checker.diagnosis.hypotheses import beginning_changes, rewrite_changes
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector
+from rovercheck.checker.diagnosis.hypotheses import beginning_changes, during_changes, rewrite_changes
 from rovercheck.checker.diagnosis.limits import number_slots
+from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.mutate.memory import shared_memory
+from rovercheck.checker.mutate.rewrites import rewrites
 from rovercheck.spec_model.abstraction import Value, boards
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Num
-from tests.diagnosis.planted import Row, diagnosis, inputs, part_of
+from tests.diagnosis.planted import Row, deviating, diagnosis, inputs, part_of, recorded, restless
 
 DRIVING = {"crit_mask_b1": 4, "ay_norm": 0, "bx_norm": 0}
 
@@ -111,6 +117,78 @@ def test_cells_of_an_array_share_memory_only_as_a_whole() -> None:
     singles = [(one.old, one.new) for one in shared_memory(monitors) if one.site == "memory"]
     wholes = [one for one in shared_memory(monitors) if one.site == "buffers"]
     assert wholes and not any("gap3" in name for pair in singles for name in pair)
+
+
+def test_two_arrays_share_memory_with_how_many_cells_are_in_use() -> None:
+    monitors = part_of("board2", "Monitors_2")
+    [one] = [
+        r for r in shared_memory(monitors) if (r.site, r.old, r.new) == ("arrays", "B2.rx_gap", "b1_sup_gap")
+    ]
+    assert not any(name.startswith("B2.rx_gap") for name in one.part.written)
+    assert {"b1_sup_gaps", "deg_rx", "B2.rx_asked"} <= one.part.written.keys()
+
+
+def test_during_actions_that_are_left_out_in_one_state() -> None:
+    """The user's references keep their values in a half turn, and so do the limits that they are made of."""
+    system, chart = boards()["board1"].system, "Motion_Supervision"
+    every = {c.new: c for c in during_changes(system, frozenset({chart})) if c.old == "all actions"}
+    assert "only in Retromarcia_180" in every
+    change = every["not in Retromarcia_180, nor is updateSafetyLimits"]
+    assert change.key[:3] == ("missing", chart, "state/Stato_marcia_rover/during")
+    turning = {"y_norm": -1, "x_norm": 0, "current_yaw": 0}
+    stick = [(20, {"y_norm": 0, "x_norm": x}) for x in (1, -1, 0.5, 1)]
+    run = inputs(
+        "board1", [(5, {"y_norm": 1}), (5, turning), *stick, (20, {"degr_mask_b2": 8, "x_norm": -1})]
+    )
+    assert found("board1", change, run)[0][0] == "missing"
+    made = recorded("board1", change.make(), run, "held")
+    assert deviating(boards()["board1"], [made]) == [chart]
+
+
+def test_a_comparison_that_holds_for_another_member_too() -> None:
+    chart = part_of("board1", "Motion_Supervision")
+    told = {one.new for one in rewrites(chart, {}) if one.kind == "also"}
+    assert "cmd == CMD_NORMAL || cmd == CMD_ROTATE_180" in told
+
+
+def test_values_of_a_limit_that_are_followed_together_are_judged_as_each_alone() -> None:
+    board = boards()["board1"]
+    runs = [recorded("board1", board.system, restless("board1", seed), f"run {seed}") for seed in range(3)]
+    collector = EvidenceCollector(board)
+    for run in runs:
+        [block] = run.blocks()
+        cells = block.values["temp_status"]
+        wrong = {**block.values, "temp_status": [*cells[:200], *cells[:1] * (len(cells) - 200)]}
+        collector.add(replace(run, blocks=partial(list, [replace(block, values=wrong)])))
+    [part] = [one for one in collector.evidence().parts if one.name == "Monitor_temperature"]
+    bench = TrialBench(part)
+    slots = [s for s in number_slots(part.group.system, frozenset({part.name})) if s.op is not None]
+    judged = 0
+    for slot in slots[:6]:
+        cone = part.group.cone(slot.opened(slot.op))
+        values = [slot.old.value + d for d in (-40, -7, -1, 0, 1, 2, 30)]
+        for number, last in ((0, 199), (1, 120), (2, 230), (0, 40)):
+            together = bench.passing(cone, number, last, PARAMETER, values)
+            alone = [v for v in values if bench.passes(cone, number, last, (PARAMETER, v))]
+            assert sorted(together) == alone
+            judged += 0 < len(alone) < len(values)
+    assert judged
+
+
+def test_rows_before_the_first_deviation_need_no_tracker(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = recorded("board1", boards()["board1"].system, restless("board1", 7), "run")
+    [block] = run.blocks()
+    cells = list(block.values["batt_status"])
+    cells[300:305] = [2 - (cell or 0) for cell in cells[300:305]]
+    collector = EvidenceCollector(boards()["board1"])
+    collector.add(
+        replace(run, blocks=partial(list, [replace(block, values={**block.values, "batt_status": cells})]))
+    )
+    [part] = collector.evidence().parts
+    bench = TrialBench(part)
+    quick = [(row, m and m.differences) for row, m in bench.mismatches(part.cone, 0)]
+    monkeypatch.setattr(trial, "_explained", lambda *_: 0)
+    assert quick == [(row, m and m.differences) for row, m in bench.mismatches(part.cone, 0)] != []
 
 
 def test_too_many_states_are_seen_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
