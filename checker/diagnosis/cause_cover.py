@@ -170,7 +170,7 @@ class _CoverSearch(HypothesisSearch):
                             rows[place][at] = rows[place].get(at, frozenset()) | {piece}
                             self._left |= {place}
                             break
-        self._rows, self._judge = rows, RowJudge(rows)
+        self._rows, self._judge = rows, self._judge.of_rows(rows)
 
     @property
     def _now(self) -> Sound:
@@ -181,7 +181,7 @@ class _CoverSearch(HypothesisSearch):
         del self._cover.changes[sound.changes :]
         self._left, self._base = sound.left, list(sound.base)
         self._system, self._bench = sound.system, sound.bench
-        self._rows, self._judge = sound.rows, RowJudge(sound.rows)
+        self._rows, self._judge = sound.rows, self._judge.of_rows(sound.rows)
 
     def _take(self, good: Sequence[CoveringChange]) -> None:
         """The best, and on top of it what explains something else."""
@@ -226,9 +226,7 @@ class _CoverSearch(HypothesisSearch):
         cone = self._cone(system)
         concerned = self._concerned(change)
         bench, self._bench = self._bench, self._bench.with_reading(change.reading)
-        wrong = (
-            None if cone is None else self._judge.all_right(self._bench, self._base, cone, None, concerned)
-        )
+        wrong = None if cone is None else self._right(cone, None, concerned)
         self._bench = bench
         if wrong is None:
             return False

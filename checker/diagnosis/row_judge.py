@@ -20,6 +20,12 @@ class RowJudge:
         self._rows = rows
         self._contradictions: dict[int, int] = {}
 
+    def of_rows(self, rows: Mapping[int, Pieces]) -> "RowJudge":
+        """The same for deviations of other rows; what contradicts often still does."""
+        made = RowJudge(rows)
+        made._contradictions = self._contradictions
+        return made
+
     def mostly_right(self, bench: TrialBench, base: Sequence[Wrong], cone: LogCone) -> list[Wrong] | None:
         """What is wrong with a changed part in each run; ``None`` if something is earlier than before."""
         found: list[Wrong] = [{} for _ in base]

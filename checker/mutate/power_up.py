@@ -18,9 +18,8 @@ MOST_VALUES = 8
 
 @dataclass(frozen=True)
 class OtherBeginning:
-    """A datum that has another value at power-up, and after the default transition of its chart."""
+    """A datum that has another value at power-up, and after the default transition at ``site``."""
 
-    chart: str
     site: str
     var: Var
     value: int
@@ -35,7 +34,7 @@ def other_beginnings(system: System, chart: Chart) -> Iterator[OtherBeginning]:
             for value in values:
                 if value != var.init:
                     made = partial(_begun, system, one, var, value)
-                    yield OtherBeginning(chart.name, f"{one.site} {var.name}", var, value, made)
+                    yield OtherBeginning(f"{one.site} {var.name}", var, value, made)
 
 
 def _set_again(one: TransitionList) -> list[Var]:

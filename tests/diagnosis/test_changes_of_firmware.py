@@ -3,6 +3,8 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from itertools import islice
+from typing import cast
 
 import pytest
 
@@ -11,9 +13,16 @@ from rovercheck.checker.conformance.estimator import StateEstimator, TooMany
 from rovercheck.checker.conformance.numbers import PARAMETER, number_between, value_of
 from rovercheck.checker.conformance.program import Known
 from rovercheck.checker.diagnosis import trial
+from rovercheck.checker.diagnosis.cause_cover import _CoverSearch
 from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.cover import CoveringChange, Unexplaining
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
-from rovercheck.checker.diagnosis.hypotheses import beginning_changes, during_changes, rewrite_changes
+from rovercheck.checker.diagnosis.hypotheses import (
+    beginning_changes,
+    during_changes,
+    mutant_changes,
+    rewrite_changes,
+)
 from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.mutate.memory import shared_memory
@@ -189,6 +198,33 @@ def test_rows_before_the_first_deviation_need_no_tracker(monkeypatch: pytest.Mon
     quick = [(row, m and m.differences) for row, m in bench.mismatches(part.cone, 0)]
     monkeypatch.setattr(trial, "_explained", lambda *_: 0)
     assert quick == [(row, m and m.differences) for row, m in bench.mismatches(part.cone, 0)] != []
+
+
+def test_what_explains_more_than_a_chance_cause_goes_before_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three differences of one chart were told as eight findings: chance causes of single rows were taken."""
+    every = mutant_changes(boards()["board1"].system, frozenset({"Motion_Supervision"}))
+    changes = dict(zip("abcd", islice(every, 4), strict=True))
+    explains = {"a": {1}, "b": {1, 2, 3}, "c": {2, 3, 4}, "d": {1, 2}}
+    search = object.__new__(_CoverSearch)
+
+    def made(name: str, gain: int = 0) -> CoveringChange:
+        return CoveringChange(changes[name], frozenset(explains[name]), gain, [], boards()["board1"].system)
+
+    def partly(*passed: tuple[str, int]) -> list[Unexplaining]:
+        return [Unexplaining(changes[name], cast(TrialBench, None), number) for name, number in passed]
+
+    bridges = {id(changes[name]): made(name, gain) for name, gain in (("b", 5), ("c", 9), ("d", 7))}
+    monkeypatch.setattr(search, "_bridge", lambda one: bridges[id(one.change)], raising=False)
+    search._good, search._passed_by_good = [made("a")], 2
+    search._partly = partly(("b", 3), ("c", 3), ("d", 3))
+    assert search._ahead() is bridges[id(changes["b"])]  # c leaves what a explains, d explains less
+    search._partly = partly(("b", 2), ("c", 3))
+    assert search._ahead() is None  # b is right with no more witnesses
+    search._good = [made("b")]
+    search._partly = partly(("b", 9), ("c", 9), ("d", 9))
+    assert search._ahead() is None
+    search._good = []
+    assert search._ahead() is None
 
 
 def test_too_many_states_are_seen_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
