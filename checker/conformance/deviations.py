@@ -178,12 +178,17 @@ class Grouping:
 
     def _thaw(self) -> None:
         """An output changes again: what stayed until now did so together, or alone."""
-        stayed, self._frozen = self._frozen, []
-        if len({m.part for m in stayed}) < 2:
-            for mismatch in stayed:
+        every, self._frozen = sorted(self._frozen, key=lambda m: m.tick), []
+        right = _right_until_then(every)
+        together = len({m.part for m in every if right.issuperset(m.outputs)}) > 1
+        stayed = [m for m in every if together and right.issuperset(m.outputs)]
+        for mismatch in every:
+            if not (together and right.issuperset(mismatch.outputs)):
                 self._add((mismatch.part, *_names(mismatch)), mismatch, "value")
-            return
-        stayed.sort(key=lambda m: m.tick)
+        if stayed:
+            self._add_frozen(stayed)
+
+    def _add_frozen(self, stayed: Sequence[LogMismatch]) -> None:
         every = {d.key: d for m in stayed for d in m.differences}
         ticks = {m.tick for m in stayed}
         outputs = sorted({d.output.name for d in every.values()})
@@ -230,6 +235,15 @@ class Grouping:
             times=old.times + new.times,
             worst=_longer(old.worst, new.worst),
         )
+
+
+def _right_until_then(stayed: Iterable[LogMismatch]) -> frozenset[str]:
+    """Outputs that stay at what was required of them, and not at something wrong to which they changed."""
+    first: dict[str, bool] = {}
+    for mismatch in stayed:
+        for one in mismatch.differences:
+            first.setdefault(one.output.name, one.late)
+    return frozenset(name for name, late in first.items() if late)
 
 
 def _names(mismatch: LogMismatch) -> list[str]:

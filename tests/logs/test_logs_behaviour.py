@@ -197,6 +197,16 @@ def test_a_stale_block_is_one_deviation(tmp_path: Path) -> None:
     assert [d.kind for d in found.deviations] in (["frozen"], ["value"])
 
 
+def test_what_was_wrong_before_and_goes_on_is_not_a_stale_block(tmp_path: Path) -> None:
+    """Faults of several parts were one deviation, "they stay", in whatever steps no output changed."""
+    rows = rows_of()
+    for row in rows[200:260]:
+        row["temp_status"], row["batt_status"] = 2 - row["temp_status"], 2 - row["batt_status"]
+    found = behaviour(tmp_path, rows).deviations
+    assert {d.kind for d in found} == {"value"}
+    assert {d.outputs for d in found} >= {("temp_status",), ("batt_status",)}
+
+
 def test_rounding_is_found(tmp_path: Path) -> None:
     rows = rows_of()
     for row in rows:
