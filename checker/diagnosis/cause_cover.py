@@ -9,8 +9,6 @@ that makes most right, and kept if with those found on top of it nothing is wron
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from itertools import islice
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -19,7 +17,7 @@ from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import ChartChange, Nearness
 from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness
-from rovercheck.checker.diagnosis.evidence import PartEvidence, logged_of
+from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, wrong_of
@@ -28,6 +26,7 @@ from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
 from rovercheck.checker.diagnosis.trial import Parameter
 from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
+from rovercheck.checker.diagnosis.witnesses import first_cases
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
@@ -40,9 +39,6 @@ NEAREST = 3
 
 MORE_TIME = 1.5
 """Times the time for changes, after which those found are not put on top of each other any more."""
-
-WITNESSES = 2
-"""Runs in which a deviation comes first that a change must get past before all runs are tried."""
 
 MOST_BRIDGES = 3
 """Changes that explain nothing alone on which others are put, one after the other."""
@@ -138,7 +134,8 @@ class _CoverSearch(HypothesisSearch):
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
         self._good, self._partly, self._settled, self._passed_by_good = [], [], frozenset(), 0
-        self._witnesses = self._first_cases()
+        cone = self._evidence.group.cone(self._system)
+        self._witnesses = first_cases(self._bench, cone, self._base, self._rows, self._left)
         self._first = frozenset(w.place for w in self._witnesses if not w.before)
         self._at_power_up = any(w.last == 0 for w in self._witnesses)
         if not self._left or not self._witnesses:
@@ -269,32 +266,7 @@ class _CoverSearch(HypothesisSearch):
         """
         return bool(self._first) and self._first <= self._settled
 
-    # --- what a change must get past ---
-
-    def _first_cases(self) -> list[Witness]:
-        """For each deviation that is left runs in which it is met early, what differs before being masked.
-
-        Those which the part passes as it is would keep nothing out.
-        """
-        found: dict[int, list[Witness]] = {}
-        ids = {id(run): number for number, run in enumerate(self._bench.runs)}
-        for place in self._left:
-            rows: dict[int, list[int]] = {}
-            for run, row in self._rows[place]:
-                if row in self._base[ids[run]]:
-                    rows.setdefault(ids[run], []).append(row)
-            for number, own in rows.items():
-                first = last = min(own)
-                while last + 1 in own:
-                    last += 1
-                masked = [row for row in self._base[number] if row < first]
-                found.setdefault(place, []).append(Witness(place, number, last, len(masked)))
-        cone = self._evidence.group.cone(self._system)
-        chosen: list[Witness] = []
-        for some in found.values():
-            candidates = map(self._masked, sorted(some, key=lambda w: w.rank))
-            chosen += islice((w for w in candidates if not self._passed(cone, w, None)), WITNESSES)
-        return sorted(chosen, key=lambda w: w.rank)
+    # --- judging ---
 
     def _passed(self, cone: LogCone, one: Witness, parameter: Parameter | None) -> bool:
         return self._bench.passes(cone, one.number, one.last, parameter, one.masked)
@@ -307,19 +279,6 @@ class _CoverSearch(HypothesisSearch):
             if one.place in concerned and len(found) < len(values):
                 found |= set(self._bench.passing(cone, one.number, one.last, PARAMETER, values, one.masked))
         return found
-
-    def _masked(self, one: Witness) -> Witness:
-        """With the outputs left out that differ by other deviations."""
-        run, names = self._bench.runs[one.number], [o.name for o in self._evidence.cone.outputs]
-        own = self._rows[one.place]
-        logged = logged_of(self._evidence.cone, run)
-        masked = {}
-        for row, pieces in self._base[one.number].items():
-            wrong = {name for name, _ in pieces - own.get((id(run), row), frozenset())}
-            if row <= one.last and wrong:
-                values = zip(names, logged[row], strict=True)
-                masked[row] = tuple(None if name in wrong else value for name, value in values)
-        return replace(one, masked=masked)
 
     def judge(
         self,
