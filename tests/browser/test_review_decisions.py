@@ -30,7 +30,9 @@ def decide(page: Page, id: str, decision: str, because: str = "", owner: str = "
     finding = page.locator(f"#{id}")
     if finding.get_attribute("open") is None:
         finding.locator("summary").first.click()
-    finding.locator(f".decide input[value={decision}]").check()
+    choice = finding.locator(f".decide input[value={decision}]")
+    choice.press("Space")  # by the keyboard: a click misses it where the page still moves
+    expect(choice).to_be_checked()
     for name, text in (("because", because), ("owner", owner), ("until", until)):
         if text:
             finding.locator(f".d-{name}").fill(text)
