@@ -26,7 +26,7 @@ def shared_memory(part: Chart | Block) -> Iterator[Rewrite]:
     for first, second in _families(part):
         pairs = dict(_pairs(part, first, second))
         yield Rewrite("shared", "buffers", second, first, partial(with_memory, part, pairs))
-    for first, second in combinations(_arrays(part.written), 2):
+    for first, second in combinations(dict.fromkeys(head for head, _ in _arrays(part.written)), 2):
         own, other = _named_like(part, first), _named_like(part, second)
         if [(n.removeprefix(first), v.domain) for n, v in own.items()] == [
             (n.removeprefix(second), v.domain) for n, v in other.items()
@@ -44,13 +44,13 @@ def _cells(names: Iterable[str]) -> frozenset[str]:
     return frozenset(name for some in _arrays(names).values() for name in some)
 
 
-def _arrays(names: Iterable[str]) -> dict[str, list[str]]:
-    """Names that differ in one number, as those of the cells of an array do, by what stands before it."""
-    found: dict[tuple[str, ...], list[str]] = {}
+def _arrays(names: Iterable[str]) -> dict[tuple[str, str], list[str]]:
+    """Names that differ in one number, as those of the cells of an array do, by what is around it."""
+    found: dict[tuple[str, str], list[str]] = {}
     for name in names:
         if cell := re.fullmatch(r"(.*?)\d+(\D*)", name):
-            found.setdefault(cell.groups(), []).append(name)
-    return {head: some for (head, _), some in found.items() if len(some) >= FEWEST_CELLS}
+            found.setdefault((cell[1], cell[2]), []).append(name)
+    return {key: some for key, some in found.items() if len(some) >= FEWEST_CELLS}
 
 
 def _families(part: Chart | Block) -> Iterator[tuple[str, str]]:

@@ -28,8 +28,10 @@ from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.mutate.memory import shared_memory
 from rovercheck.checker.mutate.rewrites import rewrites
 from rovercheck.spec_model.abstraction import Value, boards
-from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart
 from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.expr import flag
 from tests.diagnosis.planted import Row, deviating, diagnosis, inputs, part_of, recorded, restless
 
 DRIVING = {"crit_mask_b1": 4, "ay_norm": 0, "bx_norm": 0}
@@ -135,6 +137,13 @@ def test_two_arrays_share_memory_with_how_many_cells_are_in_use() -> None:
     ]
     assert not any(name.startswith("B2.rx_gap") for name in one.part.written)
     assert {"b1_sup_gaps", "deg_rx", "B2.rx_asked"} <= one.part.written.keys()
+
+
+def test_cells_of_two_arrays_that_are_named_alike_share_memory_only_as_wholes() -> None:
+    names = [f"gap{n}_{what}" for what in ("ms", "fresh") for n in range(4)]
+    block = Block("record", [assign(flag(name, name), True) for name in (*names, "one", "two")])
+    singles = [{one.old, one.new} for one in shared_memory(block) if one.site == "memory"]
+    assert singles == [{"one", "two"}]
 
 
 def test_during_actions_that_are_left_out_in_one_state() -> None:
