@@ -34,6 +34,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     written_changes,
 )
 from rovercheck.checker.diagnosis.limits import number_slots
+from rovercheck.checker.diagnosis.part_diagnosis import changed_part
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, DiagnosedPart, diagnose_board
 from rovercheck.spec_model.abstraction import Board, Value, boards
 from rovercheck.spec_model.lang.chart import Component, parts
@@ -166,7 +167,7 @@ def _judged(
         real = _changed_cone(part, system)
         for number, cause in enumerate(causes):
             same = cause is not None and len(cause.changes) == 1 and cause.changes[0].key == change.key
-            if cause is not None and (same or _equal(part, cause.cone, real)):
+            if cause is not None and (same or _equal(part, changed_part(part.evidence[0], cause)[0], real)):
                 place = number
                 break
     return PlantedOutcome(change, place, told, false, taken, rows)

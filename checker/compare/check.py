@@ -26,6 +26,7 @@ from rovercheck.checker.compare.search import (
     CI,
     CompareEffort,
     CompareSearch,
+    KnownChanges,
     Leading,
     Progress,
     Run,
@@ -146,14 +147,15 @@ def cross_check(
     watched: bool = False,
     deviating: Callable[[RecordedRun], None] = lambda run: None,
     leading: Leading = lambda found, runs: found,
+    known: KnownChanges | None = None,
 ) -> CompareResult:
     """Compare an implementation with the charts of ``board1`` or ``board2``, changed ones or a model's.
 
     ``effort`` is how many runs are drawn, from which seed; ``folder`` holds further tests; ``allowance``
     says what is spent on mismatches; ``watched``: whether the result says what was put to the test;
     ``deviating`` is given each run in which the implementation differs, to its end; ``leading`` says which
-    deviations are told in full.  Of changed charts kept runs are inputs only: what they require is computed
-    anew.
+    deviations are told in full; ``known``: the changes that explain what is known.  Of changed charts kept
+    runs are inputs only: what they require is computed anew.
     """
     env = ENVIRONMENTS[board] if isinstance(board, str) else environment(board)
     search = CompareSearch(
@@ -165,6 +167,7 @@ def cross_check(
         watched=watched,
         deviating=deviating,
         leading=leading,
+        known=known,
     )
     return search.run(_known(env, folder))
 

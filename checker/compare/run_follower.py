@@ -49,21 +49,27 @@ class RecordedRun:
 class RunFollower:
     """Follows runs of one implementation through the charts of a board; what it learns it keeps for the next.
 
-    ``watched``: whether the behaviours say what was put to the test.
+    ``watched``: whether the behaviours say what was put to the test.  ``only``: the one part that is
+    followed, with those that it reads.
     """
 
-    def __init__(self, board: Board, watched: bool = False) -> None:
+    def __init__(self, board: Board, watched: bool = False, only: str = "") -> None:
         self.board = board
+        self._only = only
         self._watched = watched
         self._vocabulary = Vocabulary(board)
         self._cones: dict[frozenset[str], tuple[LogCone, ...]] = {}
 
     def behaviour(self, run: RecordedRun) -> Behaviour:
         """What the run says of the charts; what differs from them as a whole is a deviation in any case."""
-        found = self._followed(run.block, self._parts(run.block), self._watched)
+        found = self.followed(run.block)
         if not found.deviations and not found.undecided and (plain := self._plain(run)) is not None:
             found.tally.groups[plain.scope] = plain
         return found
+
+    def followed(self, block: LogBlock) -> Behaviour:
+        """What a run from power-up, as a block of rows, says of the parts of the charts."""
+        return self._followed(block, self._parts(block), self._watched)
 
     def first(
         self, inputs: Sequence[Values], outputs: Sequence[Values], wanted: DeviationScope
@@ -88,7 +94,8 @@ class RunFollower:
     def _parts(self, block: LogBlock) -> tuple[LogCone, ...]:
         given = frozenset(o.name for o in self.board.outputs if o.name in block.values)
         if given not in self._cones:
-            self._cones[given] = cones(self.board, frozenset(self._vocabulary.sights), given)
+            every = cones(self.board, frozenset(self._vocabulary.sights), given)
+            self._cones[given] = tuple(_upstream(every, self._only)) if self._only else every
         return self._cones[given]
 
     def _follower(self, parts: Sequence[LogCone], block: LogBlock, watched: bool = False) -> BoardFollower:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from random import SystemRandom
+from typing import Protocol
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
@@ -28,7 +29,8 @@ from rovercheck.checker.compare.smaller import Budget, mismatch_of, smaller
 from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import stimuli
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
-from rovercheck.checker.conformance.follower import Situation
+from rovercheck.checker.conformance.follower import Behaviour, Situation
+from rovercheck.checker.conformance.tracker import UndecidedRow
 
 CI_SEED = 5
 NIGHTLY = 20
@@ -65,6 +67,21 @@ Leading = Callable[[Sequence[Deviation], EvidenceRuns], Sequence[Deviation]]
 """Says which deviations are to be told in full, the first ones first, from all of them and their runs."""
 
 
+class KnownChanges(Protocol):
+    """The charts with the changes that explain what is known, and what runs are beside them."""
+
+    def followed(
+        self, run: RecordedRun, found: Behaviour
+    ) -> tuple[tuple[UndecidedRow, ...], tuple[Deviation, ...]]:
+        """What is undecided of a run, and what deviates on top of what is known."""
+
+    def told(self, found: Sequence[Deviation]) -> Sequence[Deviation]:
+        """What is to be told of deviations from the charts as drawn, and those on top of what is known."""
+
+    def follower(self, part: str) -> RunFollower:
+        """What follows a part with the changes."""
+
+
 class Enough(BaseException):
     """Nothing more is to be tried; Hypothesis lets it through at once."""
 
@@ -75,7 +92,7 @@ class CompareSearch:
 
     ``record`` is given what the charts do in each run, ``deviating`` each run of the implementation that is
     not theirs.  ``watched``: whether the result says what was put to the test.  ``leading`` is asked once all
-    runs are done.
+    runs are done.  ``known``: runs are followed beside the changes that explain what is known, too.
     """
 
     env: Environment
@@ -89,6 +106,7 @@ class CompareSearch:
     watched: bool = False
     deviating: Callable[[RecordedRun], None] = lambda run: None
     leading: Leading = lambda found, runs: found
+    known: KnownChanges | None = None
     tally: DeviationTally = field(default_factory=DeviationTally)
     notable: NotableRuns = field(default_factory=NotableRuns)
     failures: list[Failure] = field(default_factory=list)
@@ -145,7 +163,11 @@ class CompareSearch:
 
     def _mismatches(self) -> list[StepMismatch]:
         """The distinct mismatches so far, what explains most first."""
-        return [self._mismatch(one) for one in self.tally.deviations()]
+        return [self._mismatch(one) for one in self._deviations()]
+
+    def _deviations(self) -> Sequence[Deviation]:
+        found = self.tally.deviations()
+        return found if self.known is None else self.known.told(found)
 
     def _mismatch(self, deviation: Deviation) -> StepMismatch:
         return mismatch_of(self._runs[deviation.origin, deviation.first.tick], deviation)
@@ -171,7 +193,7 @@ class CompareSearch:
     def _make_small(self) -> None:
         """Make the mismatches small that are told in full, what explains most first."""
         self.doing = "looking for causes"
-        first = self.leading(self.tally.deviations(), self._evidence)
+        first = self.leading(self._deviations(), self._evidence)
         todo = [self._mismatch(one) for one in first[: self.allowance.mismatches]]
         left = self.allowance.total
         for number, mismatch in enumerate(todo, 1):
@@ -179,8 +201,15 @@ class CompareSearch:
             self.progress(self)
             budget = Budget(min(left, self.allowance.budget))
             before = budget.left
-            self._small.append(smaller(self.env, mismatch, self.implementation, budget, self._follower))
+            follower = self._follower_of(mismatch)
+            self._small.append(smaller(self.env, mismatch, self.implementation, budget, follower))
             left -= min(before, before - budget.left)
+
+    def _follower_of(self, mismatch: StepMismatch) -> RunFollower:
+        scope = mismatch.deviation and mismatch.deviation.scope
+        if self.known is not None and scope and scope.on_top:
+            return self.known.follower(scope.part)
+        return self._follower
 
     def _try_all(self, runs: Iterable[Run]) -> None:
         for origin, steps in runs:
@@ -227,13 +256,15 @@ class CompareSearch:
         groups, evidence = found.tally.groups, found.tally.evidence
         if not groups and not found.undecided:
             return
-        for part in found.undecided:
+        undecided, on_top = (found.undecided, ()) if self.known is None else self.known.followed(run, found)
+        for part in undecided:
             self._undecided[part.part, part.because] += 1
         self.deviating(run)
         self._evidence.add(run, groups)
-        if groups:
-            self.notable.add(self.coverage.runs, run, groups.values())
-        for one in groups.values():
+        every = [*groups.values(), *on_top]
+        if every:
+            self.notable.add(self.coverage.runs, run, every)
+        for one in every:
             self._runs[run.origin, one.first.tick] = run.up_to(one.first.tick)
         self.tally.add(groups.values(), evidence or WholeEvidence(), run.origin)
 

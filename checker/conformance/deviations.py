@@ -23,13 +23,15 @@ class DeviationScope:
     """What makes a deviation another one than the next, in words that a file can hold.
 
     ``kind`` is ``late`` where the outputs are never on time; what is late now and then is a ``value``.
-    ``charts``: the transition that the charts took, or the states in which they stayed.
+    ``charts``: the transition that the charts took, or the states in which they stayed.  ``on_top``: it is
+    one from the charts with the changes that explain what is known of the part.
     """
 
     kind: DeviationKind
     part: str
     differences: tuple[ScopedOutput, ...]
     charts: tuple[str, ...] = ()
+    on_top: bool = False
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -37,7 +39,7 @@ class DeviationScope:
 
     def id(self, board: str) -> str:
         """A short name that is the same wherever and whenever the deviation is met."""
-        text = repr((board, self.kind, self.part, self.differences, self.charts))
+        text = repr((board, self.kind, self.part, self.differences, self.charts, *[True] * self.on_top))
         return f"{board}-{self.outputs[0]}-{sha256(text.encode()).hexdigest()[:6]}"
 
 

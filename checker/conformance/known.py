@@ -33,13 +33,14 @@ class KnownDeviation:
         """Whether it is the one that was found."""
         if self.scope == found.scope:
             return True
-        late = self.scope.kind == found.kind == "late"
+        late = self.scope.kind == found.kind == "late" and self.scope.on_top == found.scope.on_top
         return late and (self.scope.part, self.scope.outputs) == (found.scope.part, found.scope.outputs)
 
     def resembles(self, found: Deviation) -> int:
         """How near one comes that is another one: 0 where it is of another part or of other outputs."""
         mine, other = self.scope, found.scope
-        if mine.part != other.part or not set(mine.outputs) & set(other.outputs):
+        same = (mine.part, mine.on_top) == (other.part, other.on_top)
+        if not same or not set(mine.outputs) & set(other.outputs):
             return 0
         return 1 + (mine.differences == other.differences) + (mine.charts == other.charts)
 

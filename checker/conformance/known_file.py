@@ -20,6 +20,8 @@ FORMAT = "rovercheck/known/1"
 AS_SPECIFIED = "as specified"
 NEVER = "never"
 FIELDS = ("id", "board", "part", "kind", "differences", "charts", "reason", "owner", "until")
+ON_TOP = "with_causes"
+"""Of a deviation from the charts with the changes of the causes of its part; it may be left out."""
 DIFFERENCE = ("output", "expected", "actual")
 CAUSE = ("board", "part", "deviations", "changes")
 CHANGE = ("kind", "chart", "at", "from", "to")
@@ -28,7 +30,8 @@ TOP = ("format", "charts", "deviation", "cause")
 HEAD = """\
 # Known deviations from the charts: expected, and checked on (docs/compare.md).
 # Fill in reason, owner and until (a date, or "never"); the other lines say what is known, and the causes
-# at the end which changes of the charts explain it.
+# at the end which changes of the charts explain it; with_causes = true: it is left beside the charts with
+# the changes of its part.
 """
 
 
@@ -85,6 +88,8 @@ def _record(one: KnownDeviation) -> Iterator[str]:
         yield "]"
     else:
         yield "charts = []"
+    if one.scope.on_top:
+        yield f"{ON_TOP} = true"
     yield f"reason = {_text(one.reason)}"
     yield f"owner = {_text(one.owner)}"
     yield f"until = {one.until.isoformat() if one.until else _text(NEVER)}"
@@ -172,7 +177,7 @@ class _KnownReader:
 
     def _record(self, number: int, row: Mapping[str, Any]) -> KnownDeviation:
         for key in row:
-            if key not in FIELDS:
+            if key not in (*FIELDS, ON_TOP):
                 self._wrong(f"a deviation has no {key!r}. {did_you_mean(key, FIELDS)}", key, number)
         for key in FIELDS:
             if key not in row:
@@ -194,7 +199,10 @@ class _KnownReader:
         moves = row["charts"]
         if not isinstance(moves, list) or not all(isinstance(move, str) for move in moves):
             self._wrong("charts is no list of texts", "charts", number)
-        scope = DeviationScope(cast(DeviationKind, kind), part, differences, tuple(moves))
+        on_top = row.get(ON_TOP, False)
+        if not isinstance(on_top, bool):
+            self._wrong(f"{ON_TOP} is {on_top!r}; write true or false", ON_TOP, number)
+        scope = DeviationScope(cast(DeviationKind, kind), part, differences, tuple(moves), on_top)
         return KnownDeviation(id, name, scope, reason, owner, self._until(number, row["until"]))
 
     def _differences(self, number: int, rows: object, board: Board) -> tuple[ScopedOutput, ...]:

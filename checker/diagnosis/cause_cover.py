@@ -141,7 +141,7 @@ class _CoverSearch(HypothesisSearch):
         if not self._left or not self._witnesses:
             return False
         self._influence = ChangeInfluence(self._system, self._evidence.cone.outputs)
-        self.level(self._system, ())
+        self.level(self._system)
         if self.enough:
             self.of = self.tried
         return True
@@ -284,7 +284,6 @@ class _CoverSearch(HypothesisSearch):
         self,
         cone: LogCone,
         change: Callable[[], ChartChange],
-        before: tuple[ChartChange, ...],
         system: System | None,
         parameter: Parameter | None = None,
     ) -> bool:

@@ -1,8 +1,4 @@
-"""The causes of a part's deviations: changes that explain every case and make no row wrong.
-
-Where no single change does, a change that explains some cases and contradicts nothing is taken as drawn,
-and another one is looked for on top of it, up to three.
-"""
+"""Every change of a part, tried from near to far; single ones that explain every case of it."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -44,10 +40,6 @@ from rovercheck.spec_model.lang.system import System
 SECONDS = 120.0
 """How long the causes of one part are looked for, in seconds of the processor."""
 
-MOST_CHANGES = 3
-BROAD = 4
-"""Changes that explain some cases on which others are put."""
-
 MOST_DURATIONS = 40
 
 STAMPS = TIERS["always"]
@@ -58,12 +50,10 @@ Clock = Callable[[], float]
 
 @dataclass(frozen=True)
 class ExplainingCause:
-    """One or more changes of a part that together explain ``trial``; the part as so changed."""
+    """One or more changes of a part that together explain ``trial``."""
 
     changes: tuple[ChartChange, ...]
     trial: Trial
-    cone: LogCone
-    system: System
 
     @property
     def nearness(self) -> tuple[float, ...]:
@@ -72,30 +62,25 @@ class ExplainingCause:
 
 
 @dataclass
-class PartDiagnosis:
-    """What was found out about one part.
+class SingleCauses:
+    """Changes of one part that each explain every case, the nearest first.
 
-    ``causes`` explain every case, the nearest first.  ``partial`` is the best that does not, if none does.
     ``tried`` changes ``of`` all; fewer only if the time was over.
     """
 
-    evidence: PartEvidence
     causes: list[ExplainingCause] = field(default_factory=list)
-    partial: ExplainingCause | None = None
     tried: int = 0
     of: int = 0
     seconds: float = 0.0
 
-    @property
-    def complete(self) -> bool:
-        return self.tried == self.of
 
-
-def diagnosed(evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = process_time) -> PartDiagnosis:
-    """The causes of what one part does otherwise than the charts."""
-    found = PartDiagnosis(evidence)
+def single_causes(
+    evidence: PartEvidence, seconds: float = SECONDS, clock: Clock = process_time
+) -> SingleCauses:
+    """The single changes that explain all that one part does otherwise than the charts."""
+    found = SingleCauses()
     start = clock()
-    _Search(found, start + seconds, clock).run()
+    _SingleChanges(evidence, found, start + seconds, clock).run()
     found.seconds = clock() - start
     return found
 
@@ -121,7 +106,6 @@ class HypothesisSearch(ABC):
         self,
         cone: LogCone,
         change: Callable[[], ChartChange],
-        before: tuple[ChartChange, ...],
         system: System | None,
         parameter: Parameter | None = None,
     ) -> bool:
@@ -141,20 +125,20 @@ class HypothesisSearch(ABC):
         """Whether nothing more needs to be tried, though there is time."""
         return False
 
-    def level(self, system: System, before: tuple[ChartChange, ...]) -> None:
-        """Every change of a system, from near to far, on top of those made before."""
+    def level(self, system: System) -> None:
+        """Every change of a system, from near to far."""
         only = frozenset(part.name for part in parts(system.components))
         changes = sorted(self._changes(system, only), key=self.order)
         self.of += len(changes)
         near = sum(self.order(change) < (TIERS["limit"],) for change in changes)
-        self._each(changes[:near], before)
+        self._each(changes[:near])
         if not self.ended:
-            self._limits(system, before, only)
-        self._each(changes[near:], before)
+            self._limits(system, only)
+        self._each(changes[near:])
         if not self.satisfied:
             extra = list(extra_changes(system, only))
             self.of += len(extra)
-            self._each(extra, before)
+            self._each(extra)
 
     def order(self, change: ChartChange) -> Nearness:
         """What is tried first; ways to take a stamp are few, and soon tried."""
@@ -170,13 +154,13 @@ class HypothesisSearch(ABC):
         self.late = self.late or self._clock() > self._until
         return self.late
 
-    def _each(self, changes: Sequence[ChartChange], before: tuple[ChartChange, ...]) -> None:
+    def _each(self, changes: Sequence[ChartChange]) -> None:
         for change in changes:
             if self.ended:
                 return
             self.tried += 1
             if self.concerns(change):
-                self._try(change, before)
+                self._try(change)
 
     def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
         found: list[ChartChange] = []
@@ -230,7 +214,7 @@ class HypothesisSearch(ABC):
         told = self._known.issuperset(v.name for v in cone.system.inputs)
         return cone if told and len(cone.outputs) == self._outputs else None
 
-    def _try(self, change: ChartChange, before: tuple[ChartChange, ...]) -> None:
+    def _try(self, change: ChartChange) -> None:
         try:
             system = change.make()
         except (ModelError, AssertionError, ValueError):
@@ -239,12 +223,12 @@ class HypothesisSearch(ABC):
         if cone is not None:
             bench = self._bench
             self._bench = bench.with_reading(change.reading)
-            self.judge(cone, lambda: change, before, system)
+            self.judge(cone, lambda: change, system)
             self._bench = bench
 
     # --- limits ---
 
-    def _limits(self, system: System, before: tuple[ChartChange, ...], only: frozenset[str]) -> None:
+    def _limits(self, system: System, only: frozenset[str]) -> None:
         factors = self._factors()
         slots = sorted(number_slots(system, only), key=lambda s: not s.at.startswith("everywhere"))
         for slot in slots:
@@ -263,7 +247,7 @@ class HypothesisSearch(ABC):
                 cone, value = cones[op], whole(raw)
                 if cone is None or (op, raw) not in possible:
                     continue
-                if self.judge(cone, made, before, None, (PARAMETER, value)):
+                if self.judge(cone, made, None, (PARAMETER, value)):
                     explained += 1
                 if explained >= 2:  # of one limit the two simplest say enough
                     self.of -= len(values) - tried
@@ -309,40 +293,16 @@ class HypothesisSearch(ABC):
         return list(found)[:40]
 
 
-class _Search(HypothesisSearch):
-    def __init__(self, found: PartDiagnosis, until: float, clock: Clock) -> None:
-        super().__init__(found.evidence, until, clock)
+class _SingleChanges(HypothesisSearch):
+    def __init__(self, evidence: PartEvidence, found: SingleCauses, until: float, clock: Clock) -> None:
+        super().__init__(evidence, until, clock)
         self._found = found
-        self._some: list[ExplainingCause] = []
 
     def run(self) -> None:
-        """Single changes first; where none explains all, changes on top of those that explain some."""
-        drawn = self._evidence.group.system
-        self.level(drawn, ())
-        bases = self._best(self._some)
-        for _ in range(MOST_CHANGES - 1):
-            if self._found.causes or not bases:
-                break
-            self._some = []
-            for base in bases:
-                readings = [c.reading for c in base.changes if c.reading is not None]
-                self._bench = TrialBench(self._evidence, readings)
-                self.level(base.system, base.changes)
-                if self._found.causes:
-                    break
-            bases = self._best(self._some) or []
+        """All changes, or as many as there is time for."""
+        self.level(self._evidence.group.system)
         self._found.causes.sort(key=lambda c: c.nearness)
         self._found.tried, self._found.of = self.tried, self.of
-
-    def _best(self, some: list[ExplainingCause]) -> list[ExplainingCause]:
-        """Those that explain most without contradiction."""
-        good = [c for c in some if c.trial.wrong == 0 and c.trial.explained]
-        good.sort(key=lambda c: (-c.trial.explained, c.nearness))
-        for one in good[:1]:
-            best = self._found.partial
-            if best is None or one.trial.explained > best.trial.explained:
-                self._found.partial = one
-        return good[:BROAD]
 
     @property
     def satisfied(self) -> bool:
@@ -353,31 +313,23 @@ class _Search(HypothesisSearch):
         self,
         cone: LogCone,
         change: Callable[[], ChartChange],
-        before: tuple[ChartChange, ...],
         system: System | None,
         parameter: Parameter | None = None,
     ) -> bool:
-        """Note a change if it explains all, or some; whether it explains all."""
+        """Note a change if it explains all; whether it does."""
         try:
-            at = self._bench.rejected(cone, parameter)
-            if at is not None and not self._bench.goes_further(at):
+            if self._bench.rejected(cone, parameter) is not None:
                 return False
             trial = self._bench.trial(cone, parameter)
         except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
             return False
-        if not (trial.full or trial.explained):
+        if not trial.full:
             return False
         made = change()
-        changed = system if system is not None else made.make()
-        real = cone if parameter is None else self._cone(changed)
-        if real is None:
-            return False
-        cause = ExplainingCause((*before, made), trial, real, changed)
-        if trial.full and at is None:
-            self._found.causes.append(cause)
-            return True
-        self._some.append(cause)
-        return False
+        if parameter is not None and self._cone(system if system is not None else made.make()) is None:
+            return False  # the number as an input, for which there is no room
+        self._found.causes.append(ExplainingCause((made,), trial))
+        return True
 
 
 def _ratio(wanted: Raw, got: Raw) -> Iterator[tuple[Fraction, None]]:
@@ -391,4 +343,4 @@ def _ages(cells: Sequence[Raw | None]) -> bool:
     return sum(a != b for a, b in pairwise(some)) > len(some) / 4
 
 
-__all__ = ["ExplainingCause", "HypothesisSearch", "PartDiagnosis", "diagnosed"]
+__all__ = ["ExplainingCause", "HypothesisSearch", "SingleCauses", "single_causes"]

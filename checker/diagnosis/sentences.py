@@ -10,9 +10,11 @@ WITH = ("limit", "constant", "timer", "repair")
 
 
 def behaves(cause: ExplainingCause) -> str:
-    """What the part is like: "Monitor_temperature behaves as with a limit of 55 °C ..."."""
-    first = cause.changes[0]
-    return f"{first.chart} behaves {' and '.join(map(like, cause.changes))}"
+    """What the part is like, chart by chart: "Monitor_temperature behaves as with a limit of 55 °C ..."."""
+    charts: dict[str, list[str]] = {}
+    for change in cause.changes:
+        charts.setdefault(change.chart, []).append(like(change))
+    return "; ".join(f"{chart} behaves {' and '.join(told)}" for chart, told in charts.items())
 
 
 def behaves_like(change: ChartChange) -> str:
@@ -29,10 +31,14 @@ def like(change: ChartChange) -> str:
 
 
 def explained(part: DiagnosedPart) -> str:
-    """The nearest cause and what it explains."""
-    if part.cause is None:
-        return f"{part.name}: no single change found for {_cases(part.cases)} in {_runs(part)}"
-    return f"{behaves(part.cause)}: explains {part.cases} of {_cases(part.cases)} in {_runs(part)}"
+    """The nearest cause, or what explains most, and how much that is."""
+    if part.cause is not None:
+        return f"{behaves(part.cause)}: explains {part.cases} of {_cases(part.cases)} in {_runs(part)}"
+    if part.partial is None:
+        return f"{part.name}: no change found for {_cases(part.cases)} in {_runs(part)}"
+    number = part.partial.trial.explained
+    some = f"explains {number or 'parts'} of {_cases(part.cases)} in {_runs(part)}"
+    return f"{behaves(part.partial)}: {some}; no change found for the rest"
 
 
 def _cases(number: int) -> str:

@@ -62,7 +62,6 @@ class TrialBench:
         firsts = {id(run): run.cases(evidence.name)[0].first for run in deviating}
         self.runs = sorted(evidence.runs, key=lambda run: firsts.get(id(run), 10**9 + len(run)))
         """Those with the earliest deviations first."""
-        self._first = [firsts.get(id(run)) for run in self.runs]
         self._order = list(range(len(self.runs)))
         self._rows: dict[tuple[object, ...], list[Rows | None]] = {}
         self._last: tuple[LogCone | None, list[Rows | None]] = (None, [])
@@ -147,11 +146,6 @@ class TrialBench:
             return _ValuesTogether(cone, run, place).passing(rows, masked, sorted(values))
         except (NeededInputs, _TooManyStates):
             return [v for v in values if self.passes(cone, number, last, (name, v), masked)]
-
-    def goes_further(self, at: tuple[int, int]) -> bool:
-        """Whether a change that fails there has explained the first deviation of that run."""
-        first = self._first[at[0]]
-        return first is not None and at[1] > first
 
     # --- rows ---
 

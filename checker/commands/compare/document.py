@@ -70,6 +70,8 @@ class MismatchRow(TypedDict):
     decided_by: str
     """The charts that decide the outputs."""
     kind: DeviationKind
+    on_top: bool
+    """Whether it is left beside the charts with the changes that explain what is known of the part."""
     runs: Ordinal
     """In how many runs it was met."""
     ticks: Ordinal
@@ -271,6 +273,7 @@ def _mismatch(mismatch: StepMismatch, deviation: Deviation, of: CrosscheckReport
         "part": deviation.scope.part,
         "decided_by": deviation.first.decided_by,
         "kind": deviation.kind,
+        "on_top": deviation.scope.on_top,
         "runs": met.runs,
         "ticks": met.count,
         "step": mismatch.tick,

@@ -8,8 +8,17 @@ from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.result import CompareResult
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
-from rovercheck.checker.diagnosis.causes import CauseGroups, by_itself, cause_groups, followed, split
+from rovercheck.checker.diagnosis.causes import (
+    CauseGroups,
+    PartChanges,
+    by_itself,
+    cause_groups,
+    followed,
+    split,
+)
+from rovercheck.checker.diagnosis.evidence import Evidence
 from rovercheck.checker.diagnosis.known_causes import no_longer_explained, that_hold
+from rovercheck.checker.diagnosis.known_charts import KnownCharts
 from rovercheck.spec_model.abstraction import Board
 
 
@@ -19,7 +28,8 @@ class CauseGrouping:
 
     ``asked``: in every part with a deviation that is not known, or in none; ``None``: where there are
     several.  Known deviations are told apart from the others of their cause: those that ``knows`` says are,
-    unless what explained them, which is among ``causes``, does so no longer.
+    unless what explained them, which is among ``causes``, does so no longer.  ``on_top`` are those that are
+    left beside the charts with the causes that were found now.
     """
 
     board: Board
@@ -30,16 +40,31 @@ class CauseGrouping:
     causes: Sequence[KnownCause] = ()
     groups: CauseGroups | None = None
     unexplained: frozenset[DeviationScope] = field(default_factory=frozenset)
+    charts: KnownCharts | None = None
+    on_top: list[Deviation] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if self.causes:
+            self.charts = KnownCharts(self.board, self.causes, self.records, self.known)
 
     def leading(
         self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
     ) -> list[Deviation]:
         """The first deviation of each group; what ends the search early leaves each by itself."""
         self.groups = by_itself(found)
+        drawn = [one for one in found if not one.scope.on_top]
+        self._group(drawn, runs, progress)
+        more = [] if self.charts is None else [one for one in self.charts.told(drawn) if one.scope.on_top]
+        self.groups = replace(self.groups, causes=(*self.groups.causes, *by_itself(more).causes))
+        return [cause.first for cause in self.groups.causes]
+
+    def _group(self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]) -> None:
+        self.groups = by_itself(found)
         evidence = None
-        if any(self.knows(one) and one.scope.part in {c.part for c in self.causes} for one in found):
+        doubtful = [] if self.charts is None else self.charts.doubtful()
+        if any(self.knows(one) and one.scope.part in {c.part for c in doubtful} for one in found):
             evidence = followed(self.board, runs.runs, progress)
-            left = no_longer_explained(evidence, found, self.records, self.causes)
+            left = no_longer_explained(evidence, found, self.records, doubtful)
             self.unexplained = frozenset(one.scope for one in left)
             self.groups = replace(self.groups, left_out=runs.of - len(runs.runs))
         parts = self._parts(found)
@@ -50,7 +75,20 @@ class CauseGrouping:
             made = [that_hold(evidence, one) if self.asked else one for one in groups.parts]
             causes = split(groups.causes, self.known)
             self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
-        return [cause.first for cause in self.groups.causes]
+            if self.asked:
+                self.on_top = self._on_top(evidence, made)
+
+    def _on_top(self, evidence: Evidence, made: Sequence[PartChanges]) -> list[Deviation]:
+        """What is left of the deviations beside the charts with the causes found."""
+        name = self.board.name
+        causes = [
+            KnownCause(name, one.part, tuple(change.key for change in one.changes), ())
+            for one in made
+            if one.changes and one.deviations
+        ]
+        charts = KnownCharts(self.board, causes, (), self.known)
+        charts.recorded(evidence)
+        return list(charts.on_top())
 
     def known(self, one: Deviation) -> bool:
         """Whether a deviation is known, and explained as before."""

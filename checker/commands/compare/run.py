@@ -109,10 +109,14 @@ def _judged(book: KnownBook, result: CompareResult, grouping: CauseGrouping) -> 
     compared = {o.name for o in result.board.outputs} - set(result.uncompared)
 
     def shown_by(known: KnownDeviation) -> bool:
-        return result.complete and shows(result.board, known.scope, result.situations, compared)
+        changed = grouping.charts.situations if grouping.charts is not None else frozenset()
+        met = changed if known.scope.on_top else result.situations
+        return result.complete and shows(result.board, known.scope, met, compared)
 
     found = () if grouping.groups is None else grouping.groups.parts
-    return book.judged(result.board.name, result.deviations, shown_by, grouping.unexplained, found)
+    return book.judged(
+        result.board.name, result.deviations, shown_by, grouping.unexplained, found, grouping.on_top
+    )
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:
@@ -171,6 +175,7 @@ def _checked(
                 progress=lambda search: line.show(_doing(board, search)),
                 watched=watched,
                 leading=lambda found, runs: grouping.leading(found, runs, line.show),
+                known=grouping.charts,
             )
     finally:
         implementation.close()

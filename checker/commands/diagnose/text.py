@@ -7,7 +7,7 @@ from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.diagnosis.change import KINDS, place_text
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, DiagnosedPart
-from rovercheck.checker.diagnosis.sentences import behaves, explained, inputs_told, like
+from rovercheck.checker.diagnosis.sentences import explained, inputs_told, like
 from rovercheck.checker.io.printable import one_line
 
 MOST_NAMES = 8
@@ -45,10 +45,12 @@ def _board(found: BoardDiagnosis) -> Iterator[str]:
     if not found.parts:
         yield f"{found.board.name}, {logs}: no deviation from the charts."
     else:
-        causes = counted(len(found.causes), "cause", "causes")
-        without = sum(p.cause is None for p in found.parts)
-        rest = f"; {counted(without, 'part', 'parts')} without" if without else ""
-        yield f"{found.board.name}, {logs}: {causes} found{rest}."
+        changes = counted(sum(len(one.changes) for one in found.causes), "cause", "causes")
+        some = sum(p.cause is None and p.partial is not None for p in found.parts)
+        without = sum(p.told is None for p in found.parts)
+        rest = f"; {counted(some, 'part', 'parts')} explained in part" if some else ""
+        rest += f"; {counted(without, 'part', 'parts')} without" if without else ""
+        yield f"{found.board.name}, {logs}: {changes} found{rest}."
     for number, part in enumerate(found.parts, 1):
         yield ""
         yield from _part(number, part)
@@ -61,14 +63,10 @@ def _board(found: BoardDiagnosis) -> Iterator[str]:
 
 def _part(number: int, part: DiagnosedPart) -> Iterator[str]:
     yield _lines(f"{number:>3}.", f"{explained(part)}.", 0, 5)
-    if part.cause is not None:
-        for change in part.cause.changes:
-            yield _lines("change", _change(change.kind, change.at, change.old, change.new))
-            if change.note:
-                yield _lines("", change.note, 16)
-    elif part.partial is not None:
-        trial = part.partial.trial
-        yield _lines("nearest", f"{behaves(part.partial)}: explains {trial.explained} of {trial.cases} only")
+    for change in part.told.changes if part.told is not None else ():
+        yield _lines("change", _change(change.kind, change.at, change.old, change.new))
+        if change.note:
+            yield _lines("", change.note, 16)
     yield _lines("in", _names(part.runs))
     yield from _evidence(part)
     for rival in part.rivals:

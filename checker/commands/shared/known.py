@@ -86,18 +86,26 @@ class KnownBook:
         found: Sequence[Deviation],
         shown_by: Callable[[KnownDeviation], bool],
         unexplained: Collection[DeviationScope] = (),
-        parts: Iterable[PartChanges] = (),
+        parts: Sequence[PartChanges] = (),
+        on_top: Iterable[Deviation] = (),
     ) -> KnownJudgement:
         """The deviations of a board beside the known ones; what is to be written of it is noted.
 
-        ``unexplained``: those that the cause of a known one does not explain; ``parts``: causes found now.
+        ``unexplained``: those that the cause of a known one does not explain; ``parts``: causes found now,
+        and ``on_top`` what they leave.
         """
         known, kept = self.known.deviations, self.kept.deviations
         records = [one for one in {r.id: r for r in (*kept, *known)}.values() if one.board == board]
         would_show = {one.id: shown_by(one) for one in records}
         today = date.today()
         if self.target is not None:
-            own = judged(board, found, kept, would_show, today).records(board)
+            again = {part.part for part in parts}
+            own = [
+                one
+                for one in judged(board, found, kept, would_show, today).records(board)
+                if not (one.scope.on_top and one.scope.part in again)
+            ]
+            own += [KnownDeviation(one.scope.id(board), board, one.scope) for one in on_top]
             causes = causes_to_keep(board, parts, own, self.kept.causes)
             self.written[board] = KnownDeviations(tuple(own), tuple(causes))
         return judged(board, found, known, would_show, today, unexplained)
