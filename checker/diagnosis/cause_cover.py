@@ -24,7 +24,7 @@ from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_
 from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
-from rovercheck.checker.diagnosis.trial import Parameter
+from rovercheck.checker.diagnosis.trial import NO_VALUE, Parameter
 from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
 from rovercheck.checker.diagnosis.witnesses import first_cases
 from rovercheck.spec_model.lang.chart import parts
@@ -318,7 +318,10 @@ class _CoverSearch(HypothesisSearch):
     def _right(
         self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int]
     ) -> list[Wrong] | None:
-        return self._judge.all_right(self._bench, self._base, cone, parameter, concerned)
+        try:
+            return self._judge.all_right(self._bench, self._base, cone, parameter, concerned)
+        except NO_VALUE:
+            return None
 
     def _made(self, change: ChartChange) -> tuple[System | None, LogCone | None]:
         """The charts with a change, and the part of them."""
@@ -363,7 +366,10 @@ class _CoverSearch(HypothesisSearch):
     def _bridge(self, one: Unexplaining) -> CoveringChange | None:
         """What a change does, if it makes nothing wrong earlier than now; ``cases`` is what it gains."""
         system, cone = self._made(one.change)
-        wrong = None if cone is None else self._judge.mostly_right(one.bench, self._base, cone)
+        try:
+            wrong = None if cone is None else self._judge.mostly_right(one.bench, self._base, cone)
+        except NO_VALUE:
+            return None
         if wrong is None or system is None:
             return None
         gain = more_wrong(self._base, wrong) - GAIN * more_wrong(wrong, self._base)

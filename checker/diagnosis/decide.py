@@ -11,6 +11,7 @@ from rovercheck.checker.conformance.mismatch import shown
 from rovercheck.checker.conformance.program import Known, NeededInputs
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.trial import NO_VALUE
 from rovercheck.checker.system.partition import expressions
 from rovercheck.spec_model.abstraction import Output
 from rovercheck.spec_model.lang.domain import Num
@@ -100,8 +101,8 @@ class RunSearch:
                 for k, cone in enumerate(self._cones):
                     try:
                         states[k], out = cone.step(states[k], given[k])
-                    except (NeededInputs, TypeError, ValueError, ZeroDivisionError):
-                        return None  # not known; bits of a fraction or of -1, a division by 0
+                    except (NeededInputs, *NO_VALUE):
+                        return None
                     outputs.append(dict(zip((o.name for o in cone.outputs), out, strict=True)))
                 if outputs[0] != outputs[1] and self._apart(*outputs):
                     self._last = outputs

@@ -50,9 +50,10 @@ class KnownCharts:
         """The parts with changes."""
         return frozenset(self._parts)
 
-    def doubtful(self) -> list[KnownCause]:
-        """The causes that left something that is not known, without changes that are gone."""
-        return [self._parts[name].present for name in sorted(self._dirty)]
+    def doubtful(self) -> list[tuple[KnownCause, KnownCause]]:
+        """The causes that left something that is not known, and without changes that seem to be gone."""
+        parts = [self._parts[name] for name in sorted(self._dirty)]
+        return [(one.cause, one.present) for one in parts]
 
     def follower(self, part: str) -> RunFollower:
         """What follows a part, with all changes that are still there."""
@@ -75,7 +76,9 @@ class KnownCharts:
         return tuple(undecided), tuple(every)
 
     def recorded(self, evidence: Evidence) -> None:
-        """The runs of an evidence in which a part deviates from the charts as drawn."""
+        """The runs of an evidence in which a part deviates from the charts as drawn; no change is gone."""
+        for changed_part in self._parts.values():
+            changed_part.tried = MOST_TRIED
         for part in evidence.parts:
             if part.name in self._parts:
                 for run in part.runs:

@@ -11,7 +11,7 @@ from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.search import ExplainingCause, SingleCauses, single_causes
-from rovercheck.checker.diagnosis.trial import TrialBench
+from rovercheck.checker.diagnosis.trial import NO_VALUE, TrialBench
 from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
@@ -19,8 +19,8 @@ from rovercheck.spec_model.lang.errors import ModelError
 MOST_RIVALS = 3
 """Other causes that explain as much, told beside the nearest."""
 
-NO_MEANING = (ModelError, StopIteration, TypeError, ValueError, ZeroDivisionError)
-"""Of changes: they do not fit, or there are bits of a fraction or of -1, or a division by 0."""
+NO_MEANING = (ModelError, StopIteration, *NO_VALUE)
+"""Of changes: they do not fit, or a step has no value with them."""
 
 
 @dataclass(frozen=True)
@@ -110,8 +110,8 @@ def diagnosed(
 
 
 def _group(cover: PartCover, seconds: float) -> _Group:
-    """What was found in some recordings; in the time that is left also single changes that explain all."""
-    found = single_causes(cover.evidence, seconds - cover.seconds)
+    """What was found in some recordings; where all is explained, also by single changes alone."""
+    found = SingleCauses() if cover.left else single_causes(cover.evidence, seconds - cover.seconds)
     found.tried += cover.tried
     found.of += cover.of if cover.late else cover.tried
     found.seconds += cover.seconds

@@ -26,7 +26,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     written_changes,
 )
 from rovercheck.checker.diagnosis.limits import MetValues, NumberSlot, number_slots, values_of
-from rovercheck.checker.diagnosis.trial import Parameter, Trial, TrialBench
+from rovercheck.checker.diagnosis.trial import NO_VALUE, Parameter, Trial, TrialBench
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.board import with_readings
 from rovercheck.spec_model.abstraction.signals import whole
@@ -321,7 +321,7 @@ class _SingleChanges(HypothesisSearch):
             if self._bench.rejected(cone, parameter) is not None:
                 return False
             trial = self._bench.trial(cone, parameter)
-        except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
+        except NO_VALUE:
             return False
         if not trial.full:
             return False

@@ -23,6 +23,9 @@ from rovercheck.spec_model.abstraction.readings import StampReading
 FEW_VARIABLES = 8
 """Up to as many a part is in few states, and its steps are remembered while a run is followed."""
 
+NO_VALUE = (TypeError, ValueError, ZeroDivisionError)
+"""What a step raises with numbers that have no meaning: bits of a fraction or of -1, a division by 0."""
+
 MOST_STATES = 64
 """States that are followed side by side before the tracker takes over."""
 
@@ -121,7 +124,7 @@ class TrialBench:
         step = cone.step if parameter is None else with_parameter(cone, *parameter)
         try:
             wrong = self._first_wrong(cone, step, number, self._prepared(cone), parameter, last, masked)
-        except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
+        except NO_VALUE:
             return False
         return wrong is None or (last is not None and wrong > last)
 
@@ -340,7 +343,7 @@ class _ValuesTogether:
                 for given in options
                 for state in before
             ]
-        except (TypeError, ValueError, ZeroDivisionError):  # bits of a fraction or of -1, a division by 0
+        except NO_VALUE:
             return ()
         states = tuple(dict.fromkeys(s for s, out in found if self._agrees(out, logged)))
         if len(states) > MOST_STATES:
@@ -364,4 +367,4 @@ def _place(cone: LogCone, name: str) -> int | None:
     return next((i for i, v in enumerate(cone.system.inputs) if v.name == name), None)
 
 
-__all__ = ["Parameter", "Trial", "TrialBench", "with_parameter"]
+__all__ = ["NO_VALUE", "Parameter", "Trial", "TrialBench", "with_parameter"]

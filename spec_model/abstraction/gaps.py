@@ -22,7 +22,11 @@ def advance(source: SourceSignals) -> Var:
 
 
 def record_of_gaps(source: SourceSignals) -> Slow2:
-    """The record with its ten gaps; a question adds the time from the stamp at the latest question."""
+    """The record with its ten gaps; a question adds the time from the stamp at the latest question.
+
+    Every question is answered anew, as firmware does: where two monitors share a record, gaps of one change
+    the mean of the other.
+    """
     pending = _kept(f"{source.name}_pending_ms")
     last = [_kept(f"{source.name}_gap{i}_ms") for i in range(1, GAPS + 1)]
     gaps = var(f"{source.name}_gaps", COUNT, hidden=True)
@@ -35,10 +39,11 @@ def record_of_gaps(source: SourceSignals) -> Slow2:
         *shift,
         assign(last[0], pending),
         assign(gaps, minimum(gaps + 1, GAPS)),
-        assign(source.deg, enough(gaps) & (total > gaps * const(source.mean, "ms"))),
     ]
+    answer = assign(source.deg, enough(gaps) & (total > gaps * const(source.mean, "ms")))
     note = Block(f"{source.name}.note", [assign(pending, pending + advance(source))])
-    return Slow2(note, (when(asked & (pending > 0), at_gap), assign(pending, 0), assign(asked, True)))
+    at_question = when(asked & (pending > 0), at_gap), assign(pending, 0), assign(asked, True), answer
+    return Slow2(note, at_question)
 
 
 def _kept(name: str) -> Var:

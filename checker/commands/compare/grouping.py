@@ -62,10 +62,13 @@ class CauseGrouping:
         self.groups = by_itself(found)
         evidence = None
         doubtful = [] if self.charts is None else self.charts.doubtful()
-        if any(self.knows(one) and one.scope.part in {c.part for c in doubtful} for one in found):
+        if any(self.knows(one) and one.scope.part in {c.part for c, _ in doubtful} for one in found):
             evidence = followed(self.board, runs.runs, progress)
-            left = no_longer_explained(evidence, found, self.records, doubtful)
-            self.unexplained = frozenset(one.scope for one in left)
+            whole, present = (
+                {one.scope for one in no_longer_explained(evidence, found, self.records, causes)}
+                for causes in zip(*doubtful, strict=True)
+            )
+            self.unexplained = frozenset(whole & present)
             self.groups = replace(self.groups, left_out=runs.of - len(runs.runs))
         parts = self._parts(found)
         if parts:
