@@ -8,6 +8,7 @@ from typing import cast
 
 import pytest
 
+from rovercheck.checker.compare.beside import rerun
 from rovercheck.checker.conformance.cones import cone_groups
 from rovercheck.checker.conformance.estimator import StateEstimator, TooMany
 from rovercheck.checker.conformance.numbers import PARAMETER, number_between, value_of
@@ -24,6 +25,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     rewrite_changes,
 )
 from rovercheck.checker.diagnosis.limits import number_slots
+from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.mutate.memory import shared_memory
 from rovercheck.checker.mutate.rewrites import rewrites
@@ -32,8 +34,9 @@ from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Chart
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import flag
-from tests.diagnosis.planted import Row, deviating, diagnosis, inputs, part_of, recorded, restless
+from tests.diagnosis.planted import Row, changed, deviating, diagnosis, inputs, part_of, recorded, restless
 
+SUP_STAMP, RX_STAMP = "last_valid_b1_ms", "b1_data_last_valid_ms"
 DRIVING = {"crit_mask_b1": 4, "ay_norm": 0, "bx_norm": 0}
 
 
@@ -139,6 +142,24 @@ def test_two_arrays_share_memory_with_how_many_cells_are_in_use() -> None:
     assert {"b1_sup_gaps", "deg_rx", "B2.rx_asked"} <= one.part.written.keys()
 
 
+def test_a_gap_of_one_monitor_changes_the_mean_of_the_other_in_one_memory() -> None:
+    """The mean was asked for at gaps of its own only: what such firmware did had no cause."""
+    [one] = [
+        r
+        for r in shared_memory(part_of("board2", "Monitors_2"))
+        if (r.site, r.old, r.new) == ("arrays", "B2.rx_gap", "b1_sup_gap")
+    ]
+    shared = changed("board2", "Monitors_2", lambda _: one.part)
+    rows = inputs(
+        "board2",
+        [(100, {}), (6, {SUP_STAMP: 2000}), (7, {SUP_STAMP: 2140}), (3, {SUP_STAMP: 2280, RX_STAMP: 2260})],
+    )
+    *_, before, last = rerun(replace(boards()["board2"], system=shared), rows)
+    assert (before.expected["rx_status"], last.expected["rx_status"]) == (1, 1)
+    *_, last = rerun(boards()["board2"], rows)
+    assert (last.expected["rx_status"], last.inputs["now_ms"]) == (0, 2320)
+
+
 def test_cells_of_two_arrays_that_are_named_alike_share_memory_only_as_wholes() -> None:
     names = [f"gap{n}_{what}" for what in ("ms", "fresh") for n in range(4)]
     block = Block("record", [assign(flag(name, name), True) for name in (*names, "one", "two")])
@@ -234,6 +255,19 @@ def test_what_explains_more_than_a_chance_cause_goes_before_it(monkeypatch: pyte
     assert search._ahead() is None
     search._good = []
     assert search._ahead() is None
+
+
+def test_numbers_without_meaning_end_no_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A mask of 5/2 passed what it had to get past, and had no bits in another run: a TypeError ended it."""
+
+    def without_value(*_: object) -> None:
+        raise TypeError("unsupported operand type(s) for >>: 'Fraction' and 'int'")
+
+    monkeypatch.setattr(RowJudge, "all_right", without_value)
+    monkeypatch.setattr(RowJudge, "mostly_right", without_value)
+    system = next(mutant_changes(boards()["board1"].system, frozenset({"Fault_masks"}))).make()
+    [part] = diagnosis("board1", system, list(restless("board1", 5))).parts
+    assert part.cause is None and part.partial is None
 
 
 def test_too_many_states_are_seen_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
