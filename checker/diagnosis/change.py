@@ -55,7 +55,7 @@ KINDS: dict[str, str] = {
 TIERS: dict[str, float] = {
     "interpretation": 0, "initial": 0.9, "repair": 1, "comparison": 2, "limit": 2, "timer": 2, "constant": 3,
     "joined": 3.1, "never": 3.15, "dropped": 3.2, "order": 3.2, "target": 3.3, "entry": 3.3, "missing": 3.4,
-    "always": 3.6, "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "signal": 5, "shared": 5,
+    "always": 3.6, "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "shared": 5, "signal": 5.2,
     "stamp": 5, "held": 6, "unread": 6, "enabled": 6, "frozen": 7, "dead": 7, "extra": 8,
 }  # fmt: skip
 """How near a kind of change lies to the charts; 3 where nothing is said."""

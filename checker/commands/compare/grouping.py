@@ -77,6 +77,7 @@ class CauseGrouping:
             left_out = runs.of - len(runs.runs)
             made = [that_hold(evidence, one) if self.asked else one for one in groups.parts]
             causes = split(groups.causes, self.known)
+            made = _one_each(made)
             self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
             if self.asked:
                 self.on_top = self._on_top(evidence, made)
@@ -111,3 +112,12 @@ class CauseGrouping:
         if self.asked is False:
             return []
         return [part for part in ways if part and part in new and (self.asked or ways[part] > 1)]
+
+
+def _one_each(found: Sequence[PartChanges]) -> list[PartChanges]:
+    """Of a part that was searched in runs of several columns the changes that explain most."""
+    most = dict[str, PartChanges]()
+    for one in found:
+        if one.part not in most or len(one.deviations) > len(most[one.part].deviations):
+            most[one.part] = one
+    return list(most.values())
