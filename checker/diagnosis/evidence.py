@@ -134,14 +134,30 @@ class EvidenceCollector:
         self._runs.setdefault(key, []).append(decoded)
 
     def evidence(self) -> Evidence:
-        """The parts that deviate in some run, in the order of execution."""
-        found: list[PartEvidence] = []
+        """The parts that deviate in some run, in the order of execution.
+
+        Runs with other columns are of one part as long as these are none that it reads or writes.
+        """
+        found: dict[object, PartEvidence] = {}
         for key, runs in self._runs.items():
             for group, cone in self._groups[key]:
-                part = PartEvidence(group, cone, runs)
-                if part.deviating:
-                    found.append(part)
-        return Evidence(self._board, tuple(found), self._behaviours)
+                found.setdefault(_told_of(group, cone), PartEvidence(group, cone, [])).runs.extend(runs)
+        parts = tuple(part for part in found.values() if part.deviating)
+        return Evidence(self._board, parts, self._behaviours)
+
+
+def _told_of(group: ConeGroup, cone: LogCone) -> object:
+    """What is a part, and what recordings tell of it."""
+    own = frozenset[str]().union(*(part.reads | part.writes for part in group.parts))
+    return (
+        tuple(part.component.name for part in group.parts),
+        tuple(o.name for o in group.outputs),
+        tuple(o.name for o in cone.outputs),
+        tuple(v.name for v in cone.system.inputs),
+        cone.before,
+        cone.between,
+        (group.seen | group.cuts) & own,
+    )
 
 
 class _Watch:

@@ -181,8 +181,8 @@ class HypothesisSearch(ABC):
         return with_readings(self._evidence.group.board, self._bench.readings)
 
     def _signals(self) -> dict[str, Var]:
-        """What the part might read by mistake, as far as it is recorded."""
-        known = {n for run in self._evidence.runs for n in run.columns}
+        """What the part might read by mistake, as far as it is recorded in all runs."""
+        known = set.intersection(*(set(run.columns) for run in self._evidence.runs))
         return {n: v for n, v in signals_of(self._evidence.group.board).items() if n in known}
 
     def _durations(self) -> list[int]:
