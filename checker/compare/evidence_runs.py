@@ -17,15 +17,16 @@ FEW = 3
 
 @dataclass
 class EvidenceRuns:
-    """Runs as recordings; ``of`` is how many deviated."""
+    """Runs as recordings, each with the parts that deviate or are undecided; ``of`` is how many deviated."""
 
     runs: list[Recording] = field(default_factory=list)
+    parts: list[frozenset[str]] = field(default_factory=list)
     of: int = 0
     _steps: int = 0
     _shown: Counter[DeviationScope] = field(default_factory=Counter)
 
-    def add(self, run: RecordedRun, scopes: Iterable[DeviationScope]) -> None:
-        """Keep a run with these deviations, or not."""
+    def add(self, run: RecordedRun, scopes: Iterable[DeviationScope], undecided: Iterable[str] = ()) -> None:
+        """Keep a run with these deviations and parts that are not decided, or not."""
         self.of += 1
         told = set(scopes)
         if self._steps + len(run.steps) > MOST_STEPS and all(self._shown[s] >= FEW for s in told):
@@ -33,6 +34,7 @@ class EvidenceRuns:
         self._shown.update(told)
         self._steps += len(run.steps)
         self.runs.append(run.recording)
+        self.parts.append(frozenset([*(one.part for one in told), *undecided]))
 
 
 __all__ = ["EvidenceRuns"]

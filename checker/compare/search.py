@@ -260,7 +260,7 @@ class CompareSearch:
         for part in undecided:
             self._undecided[part.part, part.because] += 1
         self.deviating(run)
-        self._evidence.add(run, groups)
+        self._evidence.add(run, groups, (one.part for one in found.undecided))
         every = [*groups.values(), *on_top]
         if every:
             self.notable.add(self.coverage.runs, run, every)

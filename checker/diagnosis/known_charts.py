@@ -7,13 +7,13 @@ nobody knows in which state they would be.  With the changes of what is known th
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
 from rovercheck.checker.conformance.follower import Behaviour, Situation
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
 from rovercheck.checker.conformance.recording import LogBlock
 from rovercheck.checker.conformance.tracker import UndecidedRow
-from rovercheck.checker.diagnosis.evidence import Evidence
 from rovercheck.checker.diagnosis.known_causes import changed
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
@@ -75,16 +75,13 @@ class KnownCharts:
             every += self._note(name, behaviour, run.origin)
         return tuple(undecided), tuple(every)
 
-    def recorded(self, evidence: Evidence) -> None:
-        """The runs of an evidence in which a part deviates from the charts as drawn; no change is gone."""
-        for changed_part in self._parts.values():
-            changed_part.tried = MOST_TRIED
-        for part in evidence.parts:
-            if part.name in self._parts:
-                for run in part.runs:
-                    if run.wrong.get(part.name) or part.name in run.undecided:
-                        for block in run.run.blocks():
-                            self._note(part.name, self._parts[part.name].behaviour(block), run.run.name)
+    def recorded(self, runs: EvidenceRuns) -> None:
+        """Runs of the implementation for which the causes were found: no change of them is gone."""
+        for name, part in self._parts.items():
+            part.tried = MOST_TRIED
+            for run, deviating in zip(runs.runs, runs.parts, strict=True):
+                for block in run.blocks() if name in deviating else ():
+                    self._note(name, part.behaviour(block), run.name)
 
     def _note(self, name: str, behaviour: Behaviour, origin: str) -> list[Deviation]:
         own = _own(behaviour, name)

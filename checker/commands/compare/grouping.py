@@ -16,7 +16,6 @@ from rovercheck.checker.diagnosis.causes import (
     followed,
     split,
 )
-from rovercheck.checker.diagnosis.evidence import Evidence
 from rovercheck.checker.diagnosis.known_causes import no_longer_explained, that_hold
 from rovercheck.checker.diagnosis.known_charts import KnownCharts
 from rovercheck.spec_model.abstraction import Board
@@ -80,9 +79,9 @@ class CauseGrouping:
             made = _one_each(made)
             self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
             if self.asked:
-                self.on_top = self._on_top(evidence, made)
+                self.on_top = self._on_top(runs, made)
 
-    def _on_top(self, evidence: Evidence, made: Sequence[PartChanges]) -> list[Deviation]:
+    def _on_top(self, runs: EvidenceRuns, made: Sequence[PartChanges]) -> list[Deviation]:
         """What is left of the deviations beside the charts with the causes found."""
         name = self.board.name
         causes = [
@@ -91,7 +90,7 @@ class CauseGrouping:
             if one.changes and one.deviations
         ]
         charts = KnownCharts(self.board, causes, (), self.known)
-        charts.recorded(evidence)
+        charts.recorded(runs)
         return list(charts.on_top())
 
     def known(self, one: Deviation) -> bool:
