@@ -116,6 +116,24 @@ def test_what_is_left_on_top_of_the_causes_is_written_and_known(folder: Path, kn
     assert compared(folder, "Late", "--known", str(known)) is Exit.FAILED
 
 
+def test_a_log_is_not_followed_beside_the_causes(
+    folder: Path, known: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What is known on top of them is neither seen nor gone there, and stays in the file."""
+    compared(folder, "Late", "--known", str(known), "--write-known", str(known))
+    text = known.read_text(encoding="utf-8")
+    log = folder / "calm.csv"
+    log.write_text("temperature,door_open,heating,Heater\n" + "20,0,0,1\n" * 50, encoding="utf-8")
+    asked = ["check-log", str(log), "--model", str(folder / "heater.py")]
+    capsys.readouterr()
+    assert run([*asked, "--known", str(known), "--write-known", str(known)]) is Exit.AS_EXPECTED
+    assert known.read_text(encoding="utf-8").count("with_causes = true") == text.count("with_causes = true")
+    said = capsys.readouterr()
+    told = {id for id in re.findall(r'id = "(.*)"', text) if id in said.out + said.err}
+    on_top = [b for b in re.split(r"\n(?=\[\[)", text) if "with_causes" in b and "deviation]]" in b]
+    assert not told & {id for block in on_top for id in re.findall(r'id = "(.*)"', block)}
+
+
 @pytest.mark.parametrize(("firmware", "seen"), [("Hot", 1), ("Brief", 1), ("Heater", 0)])
 def test_a_cause_that_is_mended_leaves_nothing_on_top(
     firmware: str, seen: int, folder: Path, known: Path, capsys: pytest.CaptureFixture[str]

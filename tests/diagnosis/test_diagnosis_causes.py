@@ -11,7 +11,7 @@ from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.recording import LogBlock, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.diagnosis.decide import RunSearch
-from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.limits import simplest
 from rovercheck.checker.diagnosis.result import DiagnosedPart, diagnose_board
 from rovercheck.checker.mutate.delays import held, late, stale
@@ -226,6 +226,21 @@ def test_a_cause_is_told_once_over_runs_with_other_columns() -> None:
     some = replace(some, signals=some.signals - {"btn1"})
     [part] = diagnose_board(boards()["board1"], [whole, some]).parts
     assert part.cause is not None and part.runs == ("whole", "some")
+
+
+def test_runs_with_other_columns_are_of_one_part_that_reads_none_of_these() -> None:
+    """A cause that explained some of them contradicted others, which were looked at by themselves."""
+    system = board1(MONITOR, limit(60, 57))
+    whole, other = recorded("board1", system, HOT, "whole"), recorded("board1", system, HOT[:300], "some")
+
+    def parts_of(*runs: Recording) -> list[int]:
+        collector = EvidenceCollector(boards()["board1"])
+        for run in runs:
+            collector.add(run)
+        return [len(part.runs) for part in collector.evidence().parts if part.name == MONITOR]
+
+    assert parts_of(whole, without(other, "v_ref", "btn1")) == [2]
+    assert parts_of(whole, without(other, "temp_last_valid_ms")) == [1]
 
 
 @pytest.mark.parametrize("board", ["board1", "board2"])

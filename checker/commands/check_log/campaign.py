@@ -50,7 +50,8 @@ class LogCampaign:
         compared = {name for b in of_board for name in b.compared}
 
         def shown_by(known: KnownDeviation) -> bool:
-            return shows(self.book.boards[board], known.scope, situations, compared)
+            drawn = not known.scope.on_top  # logs are not followed beside the causes of known deviations
+            return drawn and shows(self.book.boards[board], known.scope, situations, compared)
 
         return self.book.judged(board, self.deviations[board], shown_by)
 

@@ -87,12 +87,12 @@ class KnownBook:
         shown_by: Callable[[KnownDeviation], bool],
         unexplained: Collection[DeviationScope] = (),
         parts: Sequence[PartChanges] = (),
-        on_top: Iterable[Deviation] = (),
+        on_top: Iterable[Deviation] | None = None,
     ) -> KnownJudgement:
         """The deviations of a board beside the known ones; what is to be written of it is noted.
 
         ``unexplained``: those that the cause of a known one does not explain; ``parts``: causes found now,
-        and ``on_top`` what they leave.
+        and ``on_top`` what they leave; ``None``: nothing was followed beside causes.
         """
         known, kept = self.known.deviations, self.kept.deviations
         records = [one for one in {r.id: r for r in (*kept, *known)}.values() if one.board == board]
@@ -105,10 +105,11 @@ class KnownBook:
                 for one in judged(board, found, kept, would_show, today).records(board)
                 if not (one.scope.on_top and one.scope.part in again)
             ]
-            own += [KnownDeviation(one.scope.id(board), board, one.scope) for one in on_top]
+            own += [KnownDeviation(one.scope.id(board), board, one.scope) for one in on_top or ()]
             causes = causes_to_keep(board, parts, own, self.kept.causes)
             self.written[board] = KnownDeviations(tuple(own), tuple(causes))
-        return judged(board, found, known, would_show, today, unexplained)
+        followed = [one for one in known if on_top is not None or not one.scope.on_top]
+        return judged(board, found, followed, would_show, today, unexplained)
 
     def write(self) -> Iterator[str]:
         """Write the file that was asked for, and say so.  Raises ``UsageError``."""
