@@ -164,10 +164,10 @@ def _told(group: _Group, deciding: bool) -> DiagnosedPart:
     cause, others = (found.causes[0], found.causes[1:]) if found.causes else (None, [])
     rivals: list[RivalCause] = []
     prediction = None
-    if cause is not None and deciding:
-        cone, _ = changed_part(first, cause)
+    if cause is not None and deciding and (cone := _cone(first, cause)) is not None:
         for rival in others[:MOST_RIVALS]:
-            run = RunSearch(first, cone, changed_part(first, rival)[0]).found()
+            other = _cone(first, rival)
+            run = None if other is None else RunSearch(first, cone, other).found()
             rivals.append(RivalCause(_only_told(rival), run))
         seen = frozenset(_seen(group.evidence))
         prediction = RunSearch(first, first.cone, cone, seen).found()
@@ -185,6 +185,14 @@ def _told(group: _Group, deciding: bool) -> DiagnosedPart:
         found.seconds,
         (),
     )
+
+
+def _cone(evidence: PartEvidence, cause: ExplainingCause) -> LogCone | None:
+    """The changed part, where its changes can be made anew one after the other."""
+    try:
+        return changed_part(evidence, cause)[0]
+    except NO_MEANING:
+        return None
 
 
 def _only_told(cause: ExplainingCause) -> ExplainingCause:
