@@ -56,7 +56,7 @@ class KnownCharts:
         return [(one.cause, one.present) for one in parts]
 
     def follower(self, part: str) -> RunFollower:
-        """What follows a part, with all changes that are still there."""
+        """What follows a part with all changes."""
         return self._parts[part].follower
 
     def followed(
@@ -69,25 +69,30 @@ class KnownCharts:
         undecided, every = list(found.undecided), list[Deviation]()
         deviating = {scope.part for scope in found.tally.groups} | {one.part for one in undecided}
         for name in sorted(deviating & self.parts):
-            behaviour = self._parts[name].behaviour(run.block)
-            undecided = [one for one in undecided if one.part != name]
-            undecided += [one for one in behaviour.undecided if one.part == name]
-            every += self._note(name, behaviour, run.origin)
+            part = self._parts[name]
+            whole = part.behaviour(run.block)
+            without = part.without_some(run.block, whole)
+            if without is None:
+                undecided = [one for one in undecided if one.part != name]
+                undecided += [one for one in whole.undecided if one.part == name]
+            every += self._note(name, whole, run.origin, without)
         return tuple(undecided), tuple(every)
 
     def recorded(self, runs: EvidenceRuns) -> None:
-        """Runs of the implementation for which the causes were found: no change of them is gone."""
+        """Runs of the implementation for which the causes were found."""
         for name, part in self._parts.items():
-            part.tried = MOST_TRIED
             for run, deviating in zip(runs.runs, runs.parts, strict=True):
                 for block in run.blocks() if name in deviating else ():
                     self._note(name, part.behaviour(block), run.name)
 
-    def _note(self, name: str, behaviour: Behaviour, origin: str) -> list[Deviation]:
-        own = _own(behaviour, name)
-        undecided = any(one.part == name for one in behaviour.undecided)
-        if undecided or any(map(self._left, own)):
+    def _note(
+        self, name: str, whole: Behaviour, origin: str, without: Behaviour | None = None
+    ) -> list[Deviation]:
+        """What a run leaves beside all changes, or without some that are gone, which explains nothing new."""
+        if any(self._parts[name].wrong(whole)):
             self._dirty.add(name)
+        behaviour = without or whole
+        own = _own(behaviour, name)
         self._tallies[name].add(own, behaviour.tally.evidence or WholeEvidence(), origin)
         self.situations |= {one for one in behaviour.situations if one[0] == name}
         return list(map(_on_top, own))
@@ -103,8 +108,8 @@ class KnownCharts:
     def told(self, found: Iterable[Deviation]) -> list[Deviation]:
         """What is to be told of the deviations from the charts as drawn, and those on top of what is known.
 
-        In a part of which the changes explain all, nothing but the known deviates.  A new one on top is told
-        where no other one of the part is new.
+        In a part of which all changes explain all, nothing but the known deviates.  A new one on top is told
+        where no other one of the part is new, and where it is not that changes are gone.
         """
         drawn = [one for one in found if not self._explained(one)]
         new = {one.scope.part for one in drawn if not self._knows(one)}
@@ -136,8 +141,8 @@ class _ChangedPart:
 
     @property
     def follower(self) -> RunFollower:
-        found = self._without(self.gone)
-        assert found is not None, "all changes fit, and those of which the others do not are not left out"
+        found = self._without(frozenset())
+        assert found is not None, "all changes fit: they were made when the file was read"
         return found
 
     @property
@@ -150,26 +155,33 @@ class _ChangedPart:
         return replace(self.cause, changes=tuple(change for n, change in changes if n not in gone))
 
     def behaviour(self, block: LogBlock) -> Behaviour:
-        """What a run is beside the changed charts, without changes of which it shows that they are gone."""
-        first = self.follower.followed(block)
-        fewest, best, gone = self._wrong(first), first, self.gone
-        if not any(fewest) or self.tried >= MOST_TRIED:
-            return first
+        """What a run is beside all changes."""
+        return self.follower.followed(block)
+
+    def without_some(self, block: LogBlock, whole: Behaviour) -> Behaviour | None:
+        """What a run is without changes of which it shows that they are gone; ``None``: it does not."""
+        if not any(self.wrong(whole)):
+            return None
+        follower = self._without(self.gone)
+        best = whole if not self.gone or follower is None else follower.followed(block)
+        fewest, gone = self.wrong(best), self.gone
+        if self.tried >= MOST_TRIED and any(fewest):
+            return None
         better = True
         while better and any(fewest):
             better = False
             for place in range(len(self.cause.changes)):
                 follower = self._without(gone ^ {place})
                 other = None if follower is None else follower.followed(block)
-                if other is not None and self._wrong(other) < fewest:
-                    fewest, best, gone, better = self._wrong(other), other, gone ^ {place}, True
+                if other is not None and self.wrong(other) < fewest:
+                    fewest, best, gone, better = self.wrong(other), other, gone ^ {place}, True
         if any(fewest):
             self.tried += 1
-            return first
+            return None
         self.gone = gone
         return best
 
-    def _wrong(self, behaviour: Behaviour) -> tuple[int, int]:
+    def wrong(self, behaviour: Behaviour) -> tuple[int, int]:
         """Steps that differ otherwise than is known, and whether something is not decided."""
         steps = sum(one.count for one in _own(behaviour, self.cause.part) if self.left(one))
         return steps, any(one.part == self.cause.part for one in behaviour.undecided)
