@@ -105,6 +105,7 @@ def test_a_fault_behind_a_known_one_is_new_on_top_of_it(
     assert compared(folder, "Late", "--known", str(known), "--mismatches", "5") is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
     assert "on top of what is known. (new)" in said
+    assert "what is known differs before, in 499 steps:" in said
 
 
 def test_what_is_left_on_top_of_the_causes_is_written_and_known(folder: Path, known: Path) -> None:

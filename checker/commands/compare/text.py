@@ -161,7 +161,8 @@ def _mismatch(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterato
     yield wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
     time = f"{mismatch.tick * board.tick_ms / 1000:g} s"
     run = "a small run" if mismatch.small else "that run"
-    before = f"; other parts differ before, in {counted(mismatch.earlier, 'step', 'steps')}"
+    others = "what is known differs" if deviation.scope.on_top else "other parts differ"
+    before = f"; {others} before, in {counted(mismatch.earlier, 'step', 'steps')}"
     yield wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
     yield from _inputs(mismatch)
     signals = {o.name: o.signal for o in board.outputs}
