@@ -135,6 +135,8 @@ class _ChangedPart:
     left: Covers
     gone: frozenset[int] = frozenset()
     tried: int = 0
+    failed: bool = False
+    """Whether some run is explained neither by all changes nor without some of them."""
 
     def __post_init__(self) -> None:
         self._followers: dict[frozenset[int], RunFollower | None] = {}
@@ -147,8 +149,8 @@ class _ChangedPart:
 
     @property
     def present(self) -> KnownCause:
-        """The cause without changes that are gone."""
-        return self._but(self.gone)
+        """The cause without changes that are gone, if with that every run is explained."""
+        return self.cause if self.failed else self._but(self.gone)
 
     def _but(self, gone: frozenset[int]) -> KnownCause:
         changes = enumerate(self.cause.changes)
@@ -166,6 +168,7 @@ class _ChangedPart:
         best = whole if not self.gone or follower is None else follower.followed(block)
         fewest, gone = self.wrong(best), self.gone
         if self.tried >= MOST_TRIED and any(fewest):
+            self.failed = True
             return None
         better = True
         while better and any(fewest):
@@ -176,7 +179,7 @@ class _ChangedPart:
                 if other is not None and self.wrong(other) < fewest:
                     fewest, best, gone, better = self.wrong(other), other, gone ^ {place}, True
         if any(fewest):
-            self.tried += 1
+            self.tried, self.failed = self.tried + 1, True
             return None
         self.gone = gone
         return best
