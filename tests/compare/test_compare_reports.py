@@ -174,6 +174,8 @@ def test_a_known_finding_is_a_suppressed_note_with_the_fingerprint_of_the_new_on
     impl, known = f"python:{folder / 'firmware.py'}:Hot", folder / "known.toml"
     [new] = told(impl, "--write-known", str(known)).results
     text = known.read_text(encoding="utf-8")
+    drawn = [one for one in re.split(r"\n(?=\[\[)", text) if "\nwith_causes" not in one]
+    text = re.sub('to = "temperature [^"]*"', 'to = "temperature > 25"', "\n".join(drawn))
     reason, owner = 'reason = "agreed in review 12"', 'owner = "Ada"'
     text = re.sub("(?m)^reason = .*$", reason, re.sub("(?m)^owner = .*$", owner, text))
     [id] = re.findall('(?m)^id = "(.*)"$', text)
