@@ -16,6 +16,7 @@ from rovercheck.checker.diagnosis.causes import (
     followed,
     split,
 )
+from rovercheck.checker.diagnosis.evidence import Evidence
 from rovercheck.checker.diagnosis.known_causes import no_longer_explained, that_hold
 from rovercheck.checker.diagnosis.known_charts import KnownCharts
 from rovercheck.spec_model.abstraction import Board
@@ -74,9 +75,8 @@ class CauseGrouping:
             evidence = evidence or followed(self.board, runs.runs, progress)
             groups = cause_groups(evidence, found, parts, self.seconds, progress)
             left_out = runs.of - len(runs.runs)
-            made = [that_hold(evidence, one) if self.asked else one for one in groups.parts]
+            made = _that_hold(evidence, groups.parts) if self.asked else groups.parts
             causes = split(groups.causes, self.known)
-            made = _one_each(made)
             self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
             if self.asked:
                 self.on_top = self._on_top(runs, made)
@@ -113,10 +113,18 @@ class CauseGrouping:
         return [part for part in ways if part and part in new and (self.asked or ways[part] > 1)]
 
 
-def _one_each(found: Sequence[PartChanges]) -> list[PartChanges]:
-    """Of a part that was searched in runs of several columns the changes that explain most."""
-    most = dict[str, PartChanges]()
-    for one in found:
-        if one.part not in most or len(one.deviations) > len(most[one.part].deviations):
-            most[one.part] = one
-    return list(most.values())
+def _that_hold(evidence: Evidence, found: Sequence[PartChanges]) -> list[PartChanges]:
+    """The changes of each part that explain most when they are made anew.
+
+    A part that was searched in runs of several columns has changes of each of them: all together are tried,
+    and each by itself.
+    """
+    made: list[PartChanges] = []
+    for part in dict.fromkeys(one.part for one in found):
+        own = [one for one in found if one.part == part]
+        if len(own) > 1:
+            changes = {change.key: change for one in own for change in one.changes}
+            every = tuple(deviation for one in own for deviation in one.deviations)
+            own.insert(0, PartChanges(part, tuple(changes.values()), every))
+        made.append(max((that_hold(evidence, one) for one in own), key=lambda one: len(one.deviations)))
+    return made
