@@ -9,7 +9,7 @@ from rovercheck.checker.diagnosis.causes import PartChanges
 from rovercheck.checker.diagnosis.evidence import DecodedRun, Evidence, PartEvidence
 from rovercheck.checker.diagnosis.pieces import differing, rows_of
 from rovercheck.checker.diagnosis.trial import TrialBench
-from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
+from rovercheck.checker.diagnosis.variant import with_changes
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -94,9 +94,7 @@ def _of(run: DecodedRun, rows: Iterable[tuple[int, int]]) -> Iterator[int]:
 
 def changed(board: Board, cause: KnownCause) -> Board:
     """A board, or some of its charts, with the changes of a cause.  Raises ``ModelError``."""
-    for change in cause.changes:
-        board = with_change(board, WrittenChange(*change))
-    return board
+    return with_changes(board, cause.changes)
 
 
 def causes_to_keep(

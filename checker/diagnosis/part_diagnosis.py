@@ -12,8 +12,7 @@ from rovercheck.checker.diagnosis.decide import DecidingRun, RunSearch
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.search import ExplainingCause, SingleCauses, single_causes
 from rovercheck.checker.diagnosis.trial import NO_VALUE, TrialBench
-from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
-from rovercheck.spec_model.abstraction import Board
+from rovercheck.checker.diagnosis.variant import with_changes
 from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_RIVALS = 3
@@ -104,6 +103,10 @@ def diagnosed(
             first = next(same, group)
             if first is group:
                 groups.append(group)
+            else:
+                first.found.tried += group.found.tried
+                first.found.of += group.found.of
+                first.found.seconds += group.found.seconds
             first.evidence.append(one)
     places = {id(e): n for n, e in enumerate(evidence)}
     return [(_told(one, deciding), tuple(places[id(e)] for e in one.evidence)) for one in groups]
@@ -137,16 +140,10 @@ def changed_part(evidence: PartEvidence, cause: ExplainingCause) -> tuple[LogCon
 
     Raises ``NO_MEANING``.
     """
-    board = _changed(evidence, cause)
+    drawn = replace(evidence.group.board, system=evidence.group.system)
+    board = with_changes(drawn, (change.key for change in cause.changes))
     taken = len(evidence.group.board.interface.taken)
     return evidence.group.cone(board.system), TrialBench(evidence, board.interface.taken[taken:])
-
-
-def _changed(evidence: PartEvidence, cause: ExplainingCause) -> Board:
-    board = replace(evidence.group.board, system=evidence.group.system)
-    for change in cause.changes:
-        board = with_change(board, WrittenChange(*change.key))
-    return board
 
 
 def _explains(cause: ExplainingCause, other: PartEvidence) -> bool:

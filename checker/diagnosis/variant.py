@@ -116,6 +116,13 @@ def with_change(board: Board, change: WrittenChange) -> Board:
     return with_readings(replace(board, system=made.make()), readings)
 
 
+def with_changes(board: Board, keys: Iterable[Sequence[str]]) -> Board:
+    """The board with changes by their keys, one on top of the other.  Raises ``ModelError``."""
+    for key in keys:
+        board = with_change(board, WrittenChange(*key))
+    return board
+
+
 def found_change(board: Board, system: System, change: WrittenChange) -> ChartChange:
     """The change of the charts, or of some of them, that is written.
 
@@ -204,5 +211,5 @@ def _steps(system: System, text: str) -> list[int]:
 
 __all__ = [
     "BoardVariant", "VariantError", "WrittenChange", "applied", "found_change", "read_variant", "with_change",
-    "written",
+    "with_changes", "written",
 ]  # fmt: skip

@@ -51,14 +51,16 @@ class CauseGrouping:
         self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
     ) -> list[Deviation]:
         """The first deviation of each group; what ends the search early leaves each by itself."""
-        self.groups = by_itself(found)
         drawn = [one for one in found if not one.scope.on_top]
-        self._group(drawn, runs, progress)
+        groups = self._grouped(drawn, runs, progress)
         more = [] if self.charts is None else [one for one in self.charts.told(drawn) if one.scope.on_top]
-        self.groups = replace(self.groups, causes=(*self.groups.causes, *by_itself(more).causes))
+        self.groups = replace(groups, causes=(*groups.causes, *by_itself(more).causes))
         return [cause.first for cause in self.groups.causes]
 
-    def _group(self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]) -> None:
+    def _grouped(
+        self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
+    ) -> CauseGroups:
+        """The deviations from the charts as drawn by cause."""
         self.groups = by_itself(found)
         evidence = None
         doubtful = [] if self.charts is None else self.charts.doubtful()
@@ -80,6 +82,7 @@ class CauseGrouping:
             self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
             if self.asked:
                 self.on_top = self._on_top(runs, made)
+        return self.groups
 
     def _on_top(self, runs: EvidenceRuns, made: Sequence[PartChanges]) -> list[Deviation]:
         """What is left of the deviations beside the charts with the causes found."""
