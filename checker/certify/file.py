@@ -23,7 +23,8 @@ class CertificateOrigin:
     """Where the questions come from: what to check again to ask them again.
 
     ``proved`` are those of the searched ``properties`` whose verdicts rest on the certificates; the others
-    were decided by runs, or not.  The rest says how the system is changed, and how ``timers`` were searched.
+    were decided by runs, or not.  The rest says how the system is changed, and how ``timers`` were searched:
+    ``changes`` are those of a variant, the board before them.
     """
 
     system: str
@@ -33,6 +34,7 @@ class CertificateOrigin:
     repair: str = ""
     without: tuple[str, ...] = ()
     timers: str = "exact"
+    changes: tuple[tuple[str, ...], ...] = ()
 
 
 class Unwritable(Exception):
@@ -87,6 +89,7 @@ def _document(origin: CertificateOrigin, certificates: Sequence[Certificate]) ->
             "repair": origin.repair,
             "without": sorted(origin.without),
             "timers": origin.timers,
+            **({"changes": [list(row) for row in origin.changes]} if origin.changes else {}),
         },
         "certificates": [document(one) for one in certificates],
     }
@@ -124,10 +127,13 @@ def _origin(found: Any) -> CertificateOrigin:
         texts = [str(found[name]) for name in ("system", "repair", "timers")]
         lists = [tuple(map(str, found[name])) for name in ("properties", "proved", "without")]
         interpretations = {str(id): str(choice) for id, choice in found["readings"].items()}
+        changes = tuple(tuple(map(str, row)) for row in found.get("changes", ()))
     except (KeyError, TypeError, AttributeError) as error:
         raise Malformed(f"{type(error).__name__} {error} in its origin") from error
     if not lists[0] or not set(lists[1]) <= set(lists[0]):
         raise Malformed("its origin names no property, or proves one that was not searched")
     if any(len(set(named)) < len(named) for named in lists):
         raise Malformed("its origin names something twice")
-    return CertificateOrigin(texts[0], lists[0], lists[1], interpretations, texts[1], lists[2], texts[2])
+    return CertificateOrigin(
+        texts[0], lists[0], lists[1], interpretations, texts[1], lists[2], texts[2], changes
+    )

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from rovercheck.checker.model import Model
+from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.abstraction.of_system import board_of
 from rovercheck.spec_model.ambiguity import ANY, fixed
@@ -28,6 +29,17 @@ def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[
         return found
     fixing = fixed(choices)
     return {n: replace(b, system=fixing.system(repaired(b.system, repair))) for n, b in found.items()}
+
+
+def boards_of(variant: Variant) -> Mapping[str, Board]:
+    """Every board of the rover, as a variant has it.  Raises ``ModelError`` as ``varied`` does."""
+    found = varied(variant.choices, variant.repair)
+    return {name: with_changes(board, variant) for name, board in found.items()}
+
+
+def with_changes(board: Board, variant: Variant) -> Board:
+    """A board with the changes of a variant that are of it; stamps taken otherwise are among these."""
+    return board if variant.changes is None else variant.changes.applied(board)
 
 
 def of_model(model: Model, name: str | None = None) -> Board:

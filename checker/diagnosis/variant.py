@@ -53,15 +53,21 @@ class WrittenChange:
 
 @dataclass(frozen=True)
 class BoardVariant:
-    """Changes of a board's charts, in the order in which they are made."""
+    """Changes of a board's charts, in the order in which they are made.
+
+    ``evidence`` says what was compared with them, and how much they explain.
+    """
 
     board: str
     changes: tuple[WrittenChange, ...]
+    evidence: str = ""
 
 
-def written(board: str, changes: Sequence[ChartChange], comments: Sequence[str] = ()) -> str:
+def written(
+    board: str, changes: Sequence[ChartChange], comments: Sequence[str] = (), evidence: str = ""
+) -> str:
     """The file of a variant, in TOML; ``comments`` are said before each change."""
-    lines = [f"board = {_quoted(board)}"]
+    lines = [f"board = {_quoted(board)}", *([f"evidence = {_quoted(evidence)}"] if evidence else [])]
     for number, change in enumerate(changes):
         lines += ["", *(f"# {line}" for line in comments[number : number + 1]), "[[change]]"]
         values = (change.kind, change.chart, change.at, change.old, change.new)
@@ -81,15 +87,19 @@ def read_variant(file: Path) -> BoardVariant:
         table = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise VariantError(f"{file}: {error}. Write a file as `rovercheck diagnose --write` does.") from error
-    board, rows = table.get("board"), table.get("change", [])
-    if not isinstance(board, str) or not isinstance(rows, list) or set(table) - {"board", "change"}:
-        raise VariantError(f'{file}: a variant holds board = "..." and tables [[change]], and nothing else.')
+    board, rows, evidence = table.get("board"), table.get("change", []), table.get("evidence", "")
+    texts = isinstance(board, str) and isinstance(evidence, str)
+    if not texts or not isinstance(rows, list) or set(table) - {"board", "evidence", "change"}:
+        raise VariantError(
+            f'{file}: a variant holds board = "...", tables [[change]], evidence = "..." if there is any, '
+            "and nothing else."
+        )
     found: list[WrittenChange] = []
     for number, row in enumerate(rows, 1):
         if not (isinstance(row, dict) and set(row) == set(KEYS) and _are_texts(row.values())):
             raise VariantError(f"{file}, change {number}: write {', '.join(KEYS)}, each a text.")
         found.append(WrittenChange(*(row[key] for key in KEYS)))
-    return BoardVariant(board, tuple(found))
+    return BoardVariant(str(board), tuple(found), evidence)
 
 
 def _are_texts(values: Iterable[object]) -> bool:

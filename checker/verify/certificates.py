@@ -22,7 +22,8 @@ from rovercheck.spec_model.lang.system import System, TransitionSystem
 class Certification:
     """What to do with proofs: write them into a ``folder``, check them again, or both.
 
-    ``interpretations``, ``repair`` and ``without`` say how the charts differ from those specified.
+    ``interpretations``, ``repair``, ``without`` and ``changes`` say how the charts differ from those
+    specified.
     """
 
     folder: Path | None = None
@@ -30,6 +31,7 @@ class Certification:
     interpretations: Mapping[str, str] = field(default_factory=dict)
     repair: str = ""
     without: tuple[str, ...] = ()
+    changes: tuple[tuple[str, ...], ...] = ()
     effort: CheckEffort = field(default_factory=CheckEffort)
 
     def written(
@@ -41,7 +43,8 @@ class Certification:
             searched = tuple(p.id for p in task.properties)
             timers = limits.timers.value
             changed = self.interpretations, self.repair, self.without
-            write(self.folder, CertificateOrigin(task.system.name, searched, proved, *changed, timers), made)
+            origin = CertificateOrigin(task.system.name, searched, proved, *changed, timers, self.changes)
+            write(self.folder, origin, made)
 
     def outcomes(
         self,

@@ -43,9 +43,12 @@ T = TypeVar("T")
 
 
 class Specialiser:
-    """Replaces variables by constants in formulas, charts and systems; what does not change stays itself."""
+    """Replaces variables by constants in formulas, charts and systems; what does not change stays itself.
 
-    def __init__(self, values: Mapping[str, Const]) -> None:
+    A variable may also be replaced by one of its own name, in another domain, wherever it is read or written.
+    """
+
+    def __init__(self, values: Mapping[str, Const | Var]) -> None:
         self.values = dict(values)
         self._done: dict[int, tuple[Expr, Expr]] = {}
         self._charts: dict[int, tuple[Chart, Chart]] = {}
@@ -85,7 +88,7 @@ class Specialiser:
     def _action(self, action: Action) -> tuple[Action, ...]:
         match action:
             case Assign(var, value):
-                return (kept(action, Assign(var, self.expr(value))),)
+                return (kept(action, Assign(self._declared(var), self.expr(value))),)
             case If(condition, then, otherwise):
                 test = self.expr(condition)
                 if isinstance(test, Const) and test is not condition:
@@ -93,6 +96,11 @@ class Specialiser:
                 branches = self.actions(then), self.actions(otherwise)
                 return (kept(action, If(test, *branches)),) if any(branches) else ()
         return (action,)
+
+    def _declared(self, var: Var) -> Var:
+        """What is written in place of a variable: itself, also where its value is fixed."""
+        found = self.values.get(var.name)
+        return found if isinstance(found, Var) else var
 
     def transitions(self, transitions: Sequence[Transition]) -> tuple[Transition, ...]:
         """The transitions that can still be taken."""
@@ -115,9 +123,11 @@ class Specialiser:
         """The component, or nothing when nothing is left of a block or of an enabled subsystem."""
         match component:
             case Chart():
-                return self.chart(component) if self._occur(component.expressions) else component
+                occur = self._occur(component.expressions) or self._written(component.written)
+                return self.chart(component) if occur else component
             case Block():
-                if component.do and self.values.keys().isdisjoint(component.read):
+                occur = not self.values.keys().isdisjoint(component.read) or self._written(component.written)
+                if component.do and not occur:
                     return component
                 do = self.actions(component.do)
                 return Block(component.name, do, text=component.text) if do else None
@@ -145,8 +155,9 @@ class Specialiser:
         return known[1]
 
     def _chart(self, chart: Chart) -> Chart:
-        made = _chart(chart, self._state(chart.root))
-        return _chart(chart, _without(made.root, _reached(chart) - _reached(made)))
+        local = [(self._declared(data), owners) for data, owners in chart.local_to]
+        made = _chart(chart, self._state(chart.root), local)
+        return _chart(chart, _without(made.root, _reached(chart) - _reached(made)), local)
 
     def _state(self, state: State) -> State:
         return State(
@@ -165,12 +176,17 @@ class Specialiser:
     def _occur(self, exprs: Sequence[Expr]) -> bool:
         return not self.values.keys().isdisjoint(variables(*exprs))
 
+    def _written(self, written: Mapping[str, Var]) -> bool:
+        return any(isinstance(self.values.get(name), Var) for name in written)
+
     def system(self, system: System) -> System:
         """The system with the variables fixed; they are no longer frozen variables of it."""
+        fixed = {name for name, value in self.values.items() if isinstance(value, Const)}
         return replace(
             system,
             components=self.components(system.components),
-            frozen=tuple(v for v in system.frozen if v.name not in self.values),
+            frozen=tuple(self._declared(v) for v in system.frozen if v.name not in fixed),
+            elapsed=None if system.elapsed is None else self._declared(system.elapsed),
             assume=self.expr(system.assume),
             assumptions=tuple(replace(a, formula=self.expr(a.formula)) for a in system.assumptions),
         )
@@ -193,7 +209,7 @@ class Specialiser:
         return value
 
 
-def _chart(chart: Chart, root: State) -> Chart:
+def _chart(chart: Chart, root: State, local: Sequence[tuple[Var, Sequence[str]]]) -> Chart:
     """The chart with another outermost level; data that no longer occur are forgotten."""
     made = Chart(
         chart.name,
@@ -205,7 +221,7 @@ def _chart(chart: Chart, root: State) -> Chart:
         place=root.place,
     )
     used = made.read | made.written
-    return made.with_local_data([(data, owners) for data, owners in chart.local_to if data.name in used])
+    return made.with_local_data([(data, owners) for data, owners in local if data.name in used])
 
 
 def _reached(chart: Chart) -> set[Path]:

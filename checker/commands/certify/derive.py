@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count
 from pathlib import Path
 
@@ -123,7 +123,8 @@ def _decided(
 ) -> Mapping[str, Result]:
     """The results for all properties of the search, decided again by a reader of certificates."""
     known = variant.properties()
-    properties: tuple[Property, ...] = tuple(pick("property", id, known) for id in origin.properties)
+    named = [pick("property", id, known) for id in origin.properties]
+    properties: tuple[Property, ...] = tuple(variant.askable(named)[0] if variant.changes else named)
     if any(p.on != origin.system for p in properties):
         raise UsageError(f"{origin.properties[0]} is not about {origin.system}")
     if len({isinstance(p.form, Unbounded) for p in properties}) > 1:
@@ -135,7 +136,18 @@ def _decided(
 
 def _variant(origin: CertificateOrigin, model: Path | None) -> Variant:
     interpretations = [f"{id}={choice}" for id, choice in origin.interpretations.items()]
-    return pick_variant(interpretations, origin.repair or None, origin.without, model)
+    variant = pick_variant(interpretations, origin.repair or None, origin.without, model)
+    if not origin.changes:
+        return variant
+    from rovercheck.checker.commands.shared.changes import changes_of
+    from rovercheck.checker.diagnosis.variant import BoardVariant, VariantError, WrittenChange
+
+    [board, *_], *rows = origin.changes
+    try:
+        written = BoardVariant(board, tuple(WrittenChange(*row) for row in rows))
+        return replace(variant, changes=changes_of(Path("the certificate"), written, variant))
+    except (VariantError, TypeError) as error:
+        raise UsageError(f"its changes do not fit the charts: {error}") from error
 
 
 def _outcome(one: Result, reader: CertificateReader) -> Outcome:

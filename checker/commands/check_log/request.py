@@ -1,6 +1,6 @@
 """What is asked of logs, and how one of them is examined."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rovercheck.checker.commands.check_log import LogOptions
@@ -10,7 +10,7 @@ from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.commands.shared.known import KnownBook
 from rovercheck.checker.commands.shared.logs import column_map
-from rovercheck.checker.compare.variants import boards_of_model, varied
+from rovercheck.checker.compare.variants import boards_of, boards_of_model, with_changes
 from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.lang.system import TICK_MS
@@ -63,14 +63,15 @@ def _against(variant: Variant, name: str | None) -> LogReference:
     Raises ``UsageError`` for a model whose steps are no rows of a log.
     """
     if variant.own is None:
-        found = varied(variant.choices, variant.repair)
+        found = boards_of(variant)
     else:
-        found = boards_of_model(variant.own, name)
+        found = {n: with_changes(b, variant) for n, b in boards_of_model(variant.own, name).items()}
         for board in found.values():
             if board.tick_ms != TICK_MS:
                 raise UsageError(
                     f"{board.name} has steps of {board.tick_ms} ms, and logs are read in steps of {TICK_MS}; "
                     "compare sets such a model beside its firmware."
                 )
-    properties, systems = variant.properties(), variant.systems()
+    stated = replace(variant, changes=None)  # a property says what must hold, whatever flies
+    properties, systems = stated.properties(), stated.systems()
     return LogReference(found, properties, systems, lambda id: variant.expected(id).verdict)

@@ -17,7 +17,7 @@ from rovercheck.checker.commands.shared.logs import logs_in, no_logs
 from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.commands.shared.output import counted, err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.compare.variants import varied
+from rovercheck.checker.compare.variants import boards_of
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import LogError, LogResult
 from rovercheck.checker.model.variant import Variant
@@ -45,7 +45,7 @@ def check_log(
     asked = request_of(variant, options)
     book = KnownBook({}, "")
     if options.known is not None or options.write_known is not None:
-        every = asked.against.boards if asked.against else varied(variant.choices, variant.repair)
+        every = asked.against.boards if asked.against else boards_of(variant)
         book = known_book(options.known, options.write_known, every, variant.name)
     asked = replace(asked, book=book, used=book.used, files=files)
     return _folder(place, asked, charts) if place.is_dir() else _log(place, asked)

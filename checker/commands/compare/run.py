@@ -12,21 +12,23 @@ from rovercheck.checker.commands.compare.text import CrosscheckReport, report, s
 from rovercheck.checker.commands.shared.campaign_files import NO_FILES, CampaignFiles
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.known import KnownBook, known_book
+from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import whole
-from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
 from rovercheck.checker.compare.search import CompareSearch
-from rovercheck.checker.compare.variants import of_model, varied
+from rovercheck.checker.compare.variants import boards_of, of_model, with_changes
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
 from rovercheck.checker.diagnosis.search import SECONDS
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import did_you_mean
+
+AS_DRAWN = VariantOptions()
 
 
 @dataclass(frozen=True)
@@ -40,9 +42,7 @@ class CrosscheckOptions:
     seed: int | None
     tests: Path | None
     allowance: Allowance = ALLOWED
-    chosen: tuple[str, ...] = ()
-    repair: str | None = None
-    model: Path | None = None
+    charts: VariantOptions = AS_DRAWN
     known: Path | None = None
     write_known: Path | None = None
     seconds: float = SECONDS
@@ -53,7 +53,7 @@ class CrosscheckOptions:
     @cached_property
     def variant(self) -> Variant:
         """How the charts are changed.  Raises ``UsageError`` or ``ModelError``."""
-        return pick_variant(self.chosen, self.repair, (), self.model)
+        return self.charts.variant()
 
 
 def compare(
@@ -66,7 +66,7 @@ def compare(
     wanted.possible()
     named = _boards(asked)
     own = asked.variant.own is not None
-    every = {b.name: b for b in named} if own else varied(asked.variant.choices, asked.variant.repair)
+    every = {b.name: b for b in named} if own else boards_of(asked.variant)
     book = known_book(asked.known, asked.write_known, every, asked.variant.name)
     book.concerning([board.name for board in named])
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
@@ -137,8 +137,8 @@ def _boards(asked: CrosscheckOptions) -> list[Board]:
                 f"{asked.variant.own.name} comes with no implementation; write --impl KIND:WHAT, as in "
                 "--impl c:firmware."
             )
-        return [of_model(asked.variant.own, asked.system)]
-    known = varied(asked.variant.choices, asked.variant.repair)
+        return [with_changes(of_model(asked.variant.own, asked.system), asked.variant)]
+    known = boards_of(asked.variant)
     if asked.system is None:
         if asked.address is not None:
             raise UsageError(

@@ -21,7 +21,7 @@ def _trace(explorer: Explorer, rest: str) -> None:
         raise RefusedInput("The model states no properties, so there is no run to load.")
     if not rest:
         raise RefusedInput(f"Write the ID of a property: trace {next(iter(known))}")
-    prop = pick("property", rest, known)
+    prop = explorer.variant.asked(pick("property", rest, known))
     systems = explorer.variant.systems()
     trace = _decided(prop, explorer.variant)
     if trace.system.name != explorer.session.simulation.system.name:

@@ -192,10 +192,12 @@ def _states(system: System, view: View, format: str | None, variant: Variant, ou
     by_name = variant.systems()
     trace = None
     if view.trace:
-        trace = _trace(_about(system, pick("property", view.trace, known), by_name), by_name)
+        run_of = variant.asked(pick("property", view.trace, known))
+        trace = _trace(_about(system, run_of, by_name), by_name)
         if trace is None:
             return Exit.INCONCLUSIVE
-    lowered, wanted, says = _monitored(system, pick("property", view.bad, known) if view.bad else None)
+    bad = variant.asked(pick("property", view.bad, known)) if view.bad else None
+    lowered, wanted, says = _monitored(system, bad)
     with Watch(err, 1) as watch:
         found = made(lowered, view.onto, view.limits, lambda line: watch.say(system.name, line), wanted, says)
         shown = _shown(found, trace, renderer, view)

@@ -262,7 +262,7 @@ class Api:
 
     def _decided(self, id: str, version: int) -> Work:
         workspace = self.workspace
-        prop, systems = workspace.variant.model.properties[id], workspace.systems
+        prop, systems = workspace.variant.asked(workspace.variant.model.properties[id]), workspace.systems
         search = SearchSettings(limits=Limits(seconds=DECIDE_SECONDS), jobs=1)
         with closing(events([prop], systems, search)) as found:
             for one in found:

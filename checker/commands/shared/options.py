@@ -36,18 +36,22 @@ GIB = Amount(min=0.25, max=1_000_000)
 
 @dataclass(frozen=True)
 class VariantOptions:
-    """Which charts are meant: a user's own model, interpretations, a repair, fewer assumptions."""
+    """Which charts are meant: a user's own model, interpretations, a repair, fewer assumptions, changes.
+
+    ``changes`` is the file of a variant: how some implementation differs from the charts.
+    """
 
     chosen: tuple[str, ...] = ()
     repair: str | None = None
     dropped: tuple[str, ...] = ()
     model: Path | None = None
+    changes: Path | None = None
 
     def variant(self) -> "Variant":
         """The charts so meant.  Raises ``UsageError`` or ``ModelError``."""
         from rovercheck.checker.commands.shared.variant import pick_variant
 
-        return pick_variant(self.chosen, self.repair, self.dropped, self.model)
+        return pick_variant(self.chosen, self.repair, self.dropped, self.model, self.changes)
 
 
 @dataclass(frozen=True)
@@ -236,6 +240,7 @@ def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
             metavar="ID",
             help="Drop an assumption about the environment; see list assumptions.",
         ),
+        CHANGES,
     )
 
 
@@ -251,6 +256,7 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
         gathered(VariantOptions, "charts")(command),
         _interpretation("Choose another interpretation of an ambiguous requirement: S43=AND."),
         REPAIR,
+        CHANGES,
     )
 
 
@@ -307,6 +313,13 @@ def knowing(command: Verb) -> Verb:
 
 
 REPAIR = click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs.")
+CHANGES = click.option(
+    "--variant",
+    "changes",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="With the changes of this file, as compare and diagnose write it.",
+)
 
 
 def _interpretation(help: str) -> Callable[[Verb], Verb]:

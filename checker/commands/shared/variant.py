@@ -1,6 +1,7 @@
 """The charts that the command line asks for: the rover's, changed or not, or a model of the user's own."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 def askable(variant: Variant, properties: Sequence[Property]) -> list[Property]:
     """The properties that speak of what the changed systems still have; says which do not."""
     asked, left = variant.askable(properties)
-    for text in left:
+    notes = variant.changes.notes() if variant.changes else ()
+    for text in (*notes, *left):
         err.print(text, markup=False)
     return asked
 
@@ -38,16 +40,32 @@ def certifying(variant: Variant, folder: Path | None, again: bool) -> "Certifica
     from rovercheck.checker.verify.certificates import Certification
 
     repair = variant.repair.name if variant.repair else ""
-    return Certification(folder, again, dict(variant.choices), repair, tuple(sorted(variant.without)))
+    changes = variant.changes.rows if variant.changes else ()
+    return Certification(
+        folder, again, dict(variant.choices), repair, tuple(sorted(variant.without)), changes
+    )
 
 
 def pick_variant(
-    chosen: Sequence[str], repair: str | None, dropped: Sequence[str], path: Path | None = None
+    chosen: Sequence[str],
+    repair: str | None,
+    dropped: Sequence[str],
+    path: Path | None = None,
+    changes: Path | None = None,
 ) -> Variant:
     """The variant that the command line asks for, of the rover or of the model at a path.
 
     Raises ``UsageError`` or ``ModelError``.
     """
+    variant = _variant(chosen, repair, dropped, path)
+    if changes is None:
+        return variant
+    from rovercheck.checker.commands.shared.changes import read_changes
+
+    return replace(variant, changes=read_changes(changes, variant))
+
+
+def _variant(chosen: Sequence[str], repair: str | None, dropped: Sequence[str], path: Path | None) -> Variant:
     if path is not None:
         from rovercheck.checker.model.load import load
 

@@ -72,9 +72,8 @@ def trace_request(
             raise UsageError(
                 f"--system goes with --state and --transition; {id} names its own system. Leave it out."
             )
-        return TraceRequest(
-            pick("property", id, variant.properties()), systems, variant.model.expected, again=again
-        )
+        prop = variant.asked(pick("property", id, variant.properties()))
+        return TraceRequest(prop, systems, variant.model.expected, again=again)
     wanted = (
         of_state(named[0], systems, system)
         if transition is None
