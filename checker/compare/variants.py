@@ -31,9 +31,13 @@ def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[
     return {n: replace(b, system=fixing.system(repaired(b.system, repair))) for n, b in found.items()}
 
 
-def boards_of(variant: Variant) -> Mapping[str, Board]:
-    """Every board of the rover, as a variant has it.  Raises ``ModelError`` as ``varied`` does."""
-    found = varied(variant.choices, variant.repair)
+def boards_of(variant: Variant, name: str | None = None) -> Mapping[str, Board]:
+    """Every board of the rover, or of a model of one's own, as a variant has it.
+
+    ``name``: only this one of a model.  Raises ``ModelError`` as ``varied`` and ``boards_of_model`` do.
+    """
+    own = variant.own
+    found = varied(variant.choices, variant.repair) if own is None else boards_of_model(own, name)
     return {name: with_changes(board, variant) for name, board in found.items()}
 
 

@@ -29,6 +29,7 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import System
 
 KEYS = ("kind", "chart", "at", "from", "to")
+_WRITE = "Write a file as `rovercheck compare --write-variant` or `rovercheck diagnose --write` does."
 _SPAN = re.compile(r"(\d+(?:\.\d+)?) (s|ms|ticks?)\b")
 
 
@@ -64,14 +65,17 @@ class BoardVariant:
 
 
 def written(
-    board: str, changes: Sequence[ChartChange], comments: Sequence[str] = (), evidence: str = ""
+    board: str,
+    changes: Sequence[ChartChange | WrittenChange],
+    comments: Sequence[str] = (),
+    evidence: str = "",
 ) -> str:
     """The file of a variant, in TOML; ``comments`` are said before each change."""
     lines = [f"board = {_quoted(board)}", *([f"evidence = {_quoted(evidence)}"] if evidence else [])]
     for number, change in enumerate(changes):
-        lines += ["", *(f"# {line}" for line in comments[number : number + 1]), "[[change]]"]
-        values = (change.kind, change.chart, change.at, change.old, change.new)
-        lines += [f"{key} = {_quoted(value)}" for key, value in zip(KEYS, values, strict=True)]
+        said = [f"# {line}" for line in comments[number : number + 1] if line]
+        lines += ["", *said, "[[change]]"]
+        lines += [f"{key} = {_quoted(value)}" for key, value in zip(KEYS, change.key, strict=True)]
     return "\n".join(lines) + "\n"
 
 
@@ -85,8 +89,10 @@ def read_variant(file: Path) -> BoardVariant:
     """A variant from its file.  Raises ``VariantError``."""
     try:
         table = tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise VariantError(f"{file}: {error}. Write a file as `rovercheck diagnose --write` does.") from error
+    except OSError as error:
+        raise VariantError(f"{file}: {error.strerror}. {_WRITE}") from error
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise VariantError(f"{file}: {error}. {_WRITE}") from error
     board, rows, evidence = table.get("board"), table.get("change", []), table.get("evidence", "")
     texts = isinstance(board, str) and isinstance(evidence, str)
     if not texts or not isinstance(rows, list) or set(table) - {"board", "evidence", "change"}:

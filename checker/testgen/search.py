@@ -22,6 +22,7 @@ from rovercheck.checker.verify.searches import (
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, reachable
 from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.board import in_steps_of
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System, in_order
@@ -90,7 +91,8 @@ def searched(
     for goal, verdict in _verdicts(system, goals, limits, jobs):
         match verdict:
             case Proved(Trace() as trace, engine):
-                inputs = list(board.run({**t.after, **t.inputs} for t in trace.ticks))
+                moments = (in_steps_of(board, system, {**t.after, **t.inputs}) for t in trace.ticks)
+                inputs = list(board.run(moments))
                 yield CoverFound(goal, script(board, inputs), engine, engine in SHORTEST_FIRST)
             case Violated((Exhausted() | Inductive()) as because, engine):
                 yield Uncoverable(goal, system.name, engine, because.how)

@@ -155,7 +155,7 @@ def test_the_age_of_a_link_goes_on_beyond_a_later_limit() -> None:
 
 def test_what_no_system_shows_is_named() -> None:
     made = changes(
-        LATER, ("stamp", "Monitor_reception", "stamp/b2_data_last_valid_ms", "as it is", "in 16 bits")
+        LATER, ("stamp", "Monitor_reception", "stamp/b2_data_last_valid_ms", "as it is given", "in 16 bits")
     )
     assert made.name == "with variant.toml but for change 2"
     assert "verdicts leave it out, as the charts see ages and no stamps" in "".join(made.notes())

@@ -63,6 +63,11 @@ COMMANDS = {
     "rovercheck compare --system board1 --impl python:mine.py:Board1 --known known.toml": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:FOLDER --write-known known.toml": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:FOLDER --known known.toml": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:FOLDER --write-variant variant.toml": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:FOLDER --variant variant.toml": CROSSCHECKS,
+    "rovercheck check --variant variant.toml": Instead(
+        "a minute of searches; docs/variants.md shows two properties, tests/cli/test_variant_files.py more"
+    ),
     "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
     "rovercheck accept --from decisions.json": Instead(

@@ -10,7 +10,7 @@ from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.commands.shared.known import KnownBook
 from rovercheck.checker.commands.shared.logs import column_map
-from rovercheck.checker.compare.variants import boards_of, boards_of_model, with_changes
+from rovercheck.checker.compare.variants import boards_of
 from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.lang.system import TICK_MS
@@ -62,10 +62,8 @@ def _against(variant: Variant, name: str | None) -> LogReference:
 
     Raises ``UsageError`` for a model whose steps are no rows of a log.
     """
-    if variant.own is None:
-        found = boards_of(variant)
-    else:
-        found = {n: with_changes(b, variant) for n, b in boards_of_model(variant.own, name).items()}
+    found = boards_of(variant, name)
+    if variant.own is not None:
         for board in found.values():
             if board.tick_ms != TICK_MS:
                 raise UsageError(

@@ -33,6 +33,7 @@ class ComparisonOptions:
     failures: int
     known: Path | None = None
     write_known: Path | None = None
+    write_variant: Path | None = None
     causes: bool | None = None
     seconds: float = 120.0
 
@@ -78,6 +79,12 @@ class ComparisonOptions:
     help="Look for causes in every part that deviates, or in none; else where a part does in several ways.",
 )
 @seeking_causes
+@click.option(
+    "--write-variant",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the causes as a variant, for --variant.",
+)
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(
     "--output",
@@ -116,6 +123,7 @@ def compare(
         charts,
         options.known,
         options.write_known,
+        options.write_variant,
         options.seconds,
         options.causes,
     )

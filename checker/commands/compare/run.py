@@ -16,6 +16,7 @@ from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import whole
+from rovercheck.checker.commands.shared.variant_file import FoundVariant, write_variant
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
@@ -23,6 +24,7 @@ from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.variants import boards_of, of_model, with_changes
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
 from rovercheck.checker.diagnosis.search import SECONDS
+from rovercheck.checker.diagnosis.variant import WrittenChange
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
@@ -45,6 +47,7 @@ class CrosscheckOptions:
     charts: VariantOptions = AS_DRAWN
     known: Path | None = None
     write_known: Path | None = None
+    write_variant: Path | None = None
     seconds: float = SECONDS
     """How long the causes of a part are looked for."""
     causes: bool | None = None
@@ -71,17 +74,20 @@ def compare(
     book.concerning([board.name for board in named])
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
     reports: list[CrosscheckReport] = []
+    variants: list[FoundVariant] = []
     for board in named:
         address = asked.address or board.supervisor
         if not as_json:
             _announce(asked, board, address, seed)
-        causes = True if asked.causes is None and asked.write_known is not None else asked.causes
+        writes = asked.write_known is not None or asked.write_variant is not None
+        causes = True if asked.causes is None and writes else asked.causes
         knows, explained = partial(book.knows, board.name), book.causes(board.name)
         grouping = CauseGrouping(board, asked.seconds, causes, knows, book.known.deviations, explained)
         result = _checked(asked, board, address, seed, book.used, grouping)
         files = _write_tests(result, address, asked.variant, output or Path())
         groups = grouping.of(result)
         judgement = _judged(book, result, grouping)
+        variants.append(_variant(result, grouping, address, asked.variant))
         reports.append(
             CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used, groups)
         )
@@ -92,6 +98,8 @@ def compare(
             break
     for said in book.write():
         err.print(said, markup=False)
+    if asked.write_variant is not None:
+        err.print(write_variant(asked.write_variant, variants), markup=False)
     code = worst(reports)
     if as_json or wanted.wanted:
         from rovercheck.checker.commands.compare.report import campaign_record
@@ -117,6 +125,25 @@ def _judged(book: KnownBook, result: CompareResult, grouping: CauseGrouping) -> 
     return book.judged(
         result.board.name, result.deviations, shown_by, grouping.unexplained, found, grouping.on_top
     )
+
+
+def _variant(result: CompareResult, grouping: CauseGrouping, address: str, variant: Variant) -> FoundVariant:
+    """The changes that explain the implementation, with what was compared with them.
+
+    They are those that the charts are compared with, those of known deviations, then those found now.
+    """
+    name, found = result.board.name, () if grouping.groups is None else grouping.groups.parts
+    [board, *_], *rows = variant.changes.rows if variant.changes else (("",),)
+    searched = {one.part for one in found}
+    kept = (key for one in grouping.causes if one.part not in searched for key in one.changes)
+    before = [WrittenChange(*key) for key in (*(rows if board == name else ()), *kept)]
+    explained = {one.scope for part in found for one in part.deviations}
+    explained |= {one.scope for one in result.deviations if grouping.known(one)}
+    every = {one.scope for one in result.deviations}
+    steps = f"{result.compared:,} steps from seed {result.seed}"
+    rest = counted(len(every), "deviation", "deviations")
+    evidence = f"compare, {address}, {steps}: the changes explain {len(explained & every)} of {rest}."
+    return FoundVariant(name, [*before, *(change for part in found for change in part.changes)], evidence)
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:

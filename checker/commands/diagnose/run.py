@@ -8,13 +8,12 @@ from rovercheck.checker.commands.diagnose import DiagnoseOptions
 from rovercheck.checker.commands.diagnose.text import page
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.logs import column_map, logs_in, no_logs
-from rovercheck.checker.commands.shared.output import err, out
+from rovercheck.checker.commands.shared.output import counted, err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.variant_file import FoundVariant, write_variant
 from rovercheck.checker.diagnosis.logs import LoggedRun, logged_run
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
-from rovercheck.checker.diagnosis.sentences import like
-from rovercheck.checker.diagnosis.variant import VariantError, applied, read_variant, written
-from rovercheck.checker.io.files import replaced
+from rovercheck.checker.diagnosis.variant import VariantError, applied, read_variant
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import ColumnMap, LogError
 from rovercheck.spec_model.abstraction import Board, boards
@@ -61,16 +60,15 @@ def diagnose(place: Path, options: DiagnoseOptions) -> Exit:
             found.ended |= {one.run.name: one.ended[0] for one in of_board if one.ended}
     if not place.is_dir() and found.unread:
         raise UsageError(f"{place}: {found.unread[place.name]}")
-    if options.write is not None:
-        _write(options.write, found)
+    said = "" if options.write is None else write_variant(options.write, [*map(_variant, found.boards)])
     if options.as_json:
         from rovercheck.checker.commands.diagnose.document import diagnose_document
 
         print(json_text(diagnose_document(found.boards, found.unread, found.ended, found.code)))
     else:
         out.print(page(found.boards, found.unread, found.ended), markup=False)
-        if options.write is not None and any(b.causes for b in found.boards):
-            out.print(f"\nThe variant is in {options.write}.", markup=False)
+        if said:
+            out.print(f"\n{said}", markup=False)
     return found.code
 
 
@@ -105,16 +103,11 @@ def _read(
     return runs
 
 
-def _write(file: Path, found: FoundCauses) -> None:
-    """The causes as a variant.  Raises ``UsageError`` if it cannot be written or is that of two boards."""
-    with_causes = [b for b in found.boards if b.causes]
-    if len(with_causes) > 1:
-        names = " and ".join(b.board.name for b in with_causes)
-        raise UsageError(f"A variant is one of one board, and causes are in {names}; choose with --system.")
-    for one in with_causes:
-        changes = [change for cause in one.causes for change in cause.changes]
-        text = written(one.board.name, changes, [f"{c.chart} behaves {like(c)}." for c in changes])
-        try:
-            replaced(file, text.encode())
-        except OSError as error:
-            raise UsageError(f"Cannot write {file}: {error.strerror}. Choose another --write.") from error
+def _variant(found: BoardDiagnosis) -> FoundVariant:
+    """The causes that were found on a board, with how much they explain."""
+    changes = [change for cause in found.causes for change in cause.changes]
+    cases = sum(part.cases for part in found.parts)
+    explained = sum(part.told.trial.explained for part in found.parts if part.told is not None)
+    runs = counted(len(found.runs), "recording", "recordings")
+    evidence = f"diagnose, {runs}: the changes explain {explained} of {counted(cases, 'case', 'cases')}."
+    return FoundVariant(found.board.name, changes, evidence)

@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import SECONDS, elsewhere, gathered, modelling, quietly
+from rovercheck.checker.commands.shared.options import (
+    SECONDS,
+    VariantOptions,
+    changing,
+    elsewhere,
+    gathered,
+    modelling,
+    quietly,
+)
 from rovercheck.checker.engines import LOADED
 
 if TYPE_CHECKING:
@@ -88,10 +96,11 @@ class GenerationOptions:
     metavar="DIR",
     help="The folder to write into.",
 )
+@changing
 @modelling
 @quietly
 @gathered(GenerationOptions, "options")
-def generate_tests(options: GenerationOptions, as_json: bool, output: Path, model: Path | None) -> Exit:
+def generate_tests(options: GenerationOptions, as_json: bool, output: Path, charts: VariantOptions) -> Exit:
     """Write short input sequences that cover the charts, with the outputs that the charts require.
 
     Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
@@ -102,7 +111,6 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path, mode
     with prepared(*LOADED):
         from rovercheck.checker.commands.generate_tests.run import CoveringRequest
         from rovercheck.checker.commands.generate_tests.run import generate_tests as run
-        from rovercheck.checker.model.load import load
         from rovercheck.checker.system.instrument.goals import KEPT, GoalKind
         from rovercheck.checker.testgen.coverage import GenerationEffort
 
@@ -115,7 +123,7 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path, mode
             options.format,
             GenerationEffort(options.timeout, options.ticks, options.scheduler or options.jobs, options.seed),
             options.kept,
-            load(model) if model else None,
+            charts.variant(),
             options.keep,
         )
         return run(asked, output, as_json)

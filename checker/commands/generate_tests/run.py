@@ -9,9 +9,9 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.text_wrap import filled, whole
-from rovercheck.checker.compare.variants import boards_of_model
+from rovercheck.checker.compare.variants import boards_of
 from rovercheck.checker.io.printable import json_text
-from rovercheck.checker.model import Model
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.system.instrument.goals import KEPT, CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
@@ -22,7 +22,6 @@ from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.rover import systems
 
 SHOWN = 10
 """Goals without a test that are named; the others are counted, and all are in the JSON."""
@@ -37,7 +36,7 @@ class CoveringRequest:
     format: str
     effort: GenerationEffort
     kept: bool
-    own: Model | None = None
+    charts: Variant
     keep: Path | None = None
     """The folder in which a set goes on from the tests it has."""
 
@@ -57,8 +56,12 @@ def generate_tests(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
 
     Raises ``ModelError`` for a name of no board or chart, ``UsageError`` where nothing can be written.
     """
-    if asked.own is not None and asked.kept:
-        raise UsageError(f"No tests of {asked.own.name} come with rovercheck; leave --kept out.")
+    own, changed = asked.charts.own, asked.charts.name
+    if own is not None and asked.kept:
+        raise UsageError(f"No tests of {own.name} come with rovercheck; leave --kept out.")
+    if changed and (asked.kept or asked.keep):
+        option = "--kept" if asked.kept else "--keep"
+        raise UsageError(f"Tests are kept of the charts as they are, and not {changed}; leave {option} out.")
     if asked.kept and asked.keep:
         raise UsageError("--kept writes tests without a search, --keep searches for more; leave one out.")
     if (asked.kept or asked.keep) and not set(asked.kinds) <= set(KEPT):
@@ -67,8 +70,7 @@ def generate_tests(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
             "such tests without --keep and --kept."
         )
     found: list[Generated] = []
-    boards = None if asked.own is None else boards_of_model(asked.own)
-    for aim in aims(asked.names, asked.kinds, boards):
+    for aim in aims(asked.names, asked.kinds, boards_of(asked.charts)):
         found.append(_kept(aim, asked, asked.keep) if asked.keep else _generated(aim, asked, output))
         if not as_json:
             out.print("\n".join(report(found[-1], asked, output)), markup=False)
@@ -86,7 +88,7 @@ def _generated(aim: Aim, asked: CoveringRequest, output: Path) -> Generated:
         known, interrupted = only(_set_of(aim.board, None), aim.goals), False
     else:
         coverage = GoalCoverage(aim.board, aim.goals)
-        interrupted = _searched(coverage, aim, asked.effort)
+        interrupted = _searched(coverage, aim, asked)
         known = coverage.kept()
     contents = files(aim, known, asked.format) if known.tests else {}
     for name, content in contents.items():
@@ -99,10 +101,10 @@ def _kept(aim: Aim, asked: CoveringRequest, folder: Path) -> Generated:
 
     A set is always one of all goals of a board; only those of ``aim`` are searched for.
     """
-    board, charts = aim.board, fingerprint(aim.board, _model(aim.board))
+    board, charts = aim.board, fingerprint(aim.board, _model(aim.board, asked.charts))
     coverage = GoalCoverage(board, watched(board.system).goals)
     coverage.go_on(_set_of(board, folder), charts)
-    interrupted = _searched(coverage, aim, asked.effort)
+    interrupted = _searched(coverage, aim, asked)
     known = coverage.kept(charts)
     name = f"{board.name}.json"
     _write(written(board, known), folder / name)
@@ -131,17 +133,18 @@ def _write(content: str, place: Path) -> None:
     write(content, place)
 
 
-def _model(board: Board) -> System:
+def _model(board: Board, charts: Variant) -> System:
     """The board with its environment; a model of one's own is what it says itself."""
-    return board.system if board.model else systems()[board.name]
+    return board.system if board.model else charts.systems()[board.name]
 
 
-def _searched(coverage: GoalCoverage, aim: Aim, effort: GenerationEffort) -> bool:
+def _searched(coverage: GoalCoverage, aim: Aim, asked: CoveringRequest) -> bool:
     """Search until all is known or the user has seen enough; whether that was so."""
     wanted = {g.id for g in aim.goals}
     with ProgressLine() as line:
         try:
-            cover(coverage, _model(aim.board), effort, GenerationProgress(line, coverage), wanted)
+            model = _model(aim.board, asked.charts)
+            cover(coverage, model, asked.effort, GenerationProgress(line, coverage), wanted)
         except KeyboardInterrupt:
             return True
     return False

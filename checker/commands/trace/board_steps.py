@@ -16,8 +16,10 @@ from rovercheck.spec_model.lang.system import TICK_MS, System
 ASK = "The run can be looked at in any other format."
 
 
-def concrete(trace: Trace, system: System) -> Trace:
+def concrete(trace: Trace, system: System, among: Mapping[str, Board] | None = None) -> Trace:
     """The trace with the steps of each board on which it happens just so, power-up included.
+
+    ``among``: the boards, where their charts are changed as those of the system are.
 
     The charts of the whole board are run on the concrete inputs, and all that the property depends on must
     be as in the trace.  Raises ``ModelError`` when there is no such board, and says why.
@@ -33,7 +35,7 @@ def concrete(trace: Trace, system: System) -> Trace:
             f"{TICK_MS} ms, so this run cannot be given to one. {ASK}"
         )
     runs, reasons = [], []
-    for board in boards().values():
+    for board in (boards() if among is None else among).values():
         if _parts(board.system) & _parts(system):
             try:
                 runs.append(_run(board, trace, system))

@@ -2,11 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from shlex import quote
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.compare.variants import boards_of
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run
@@ -15,6 +17,7 @@ from rovercheck.checker.verify.runs.replay import followed
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import did_you_mean
 from rovercheck.spec_model.lang.system import System
@@ -41,6 +44,7 @@ class TraceRequest:
     plain: System | None = None
     watched: "Watched | None" = None
     again: str = ""
+    boards: Callable[[], Mapping[str, Board]] = boards
 
     def drawn(self, trace: Trace) -> Trace:
         """A trace of the property on the charts as drawn, with the command that shows it."""
@@ -67,19 +71,20 @@ def trace_request(
         )
     systems = variant.systems()
     again = _again(variant, id, state, transition, system)
+    of_run = partial(boards_of, variant) if variant.own is None else boards
     if id is not None:
         if system is not None:
             raise UsageError(
                 f"--system goes with --state and --transition; {id} names its own system. Leave it out."
             )
         prop = variant.asked(pick("property", id, variant.properties()))
-        return TraceRequest(prop, systems, variant.model.expected, again=again)
+        return TraceRequest(prop, systems, variant.model.expected, again=again, boards=of_run)
     wanted = (
         of_state(named[0], systems, system)
         if transition is None
         else of_transition(transition, systems, system)
     )
-    return replace(wanted, again=again)
+    return replace(wanted, again=again, boards=of_run)
 
 
 def _again(

@@ -117,7 +117,8 @@ def trace(
         return Exit.AS_EXPECTED
     first = wanted.drawn(showing.explaining(verdict.because, prop, systems)).with_reason(because)
     renderer = showing.renderer
-    others = exit_written(renderer, showing.cut(first), systems, showing.output, showing.everything)
+    shown = showing.cut(first)
+    others = exit_written(renderer, shown, systems, showing.output, showing.everything, wanted.boards)
     for place in (showing.output, *others):
         wrote(place)
     return Exit.AS_EXPECTED
