@@ -109,7 +109,7 @@ def toy_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     """The toy board in place of the rover's; nothing is kept of it yet."""
     goals = watched(TOY.system).goals
     monkeypatch.setattr(generating, "aims", lambda names, kinds, boards: [Aim(TOY, goals)])
-    monkeypatch.setattr(generating, "systems", lambda: {TOY.name: SYSTEM})
+    monkeypatch.setattr(generating, "_model", lambda board, charts: SYSTEM)
     monkeypatch.setattr(generating, "kept_text", lambda name: written(TOY, KeptTests(())))
 
 
