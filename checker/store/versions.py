@@ -55,6 +55,19 @@ def deciding() -> str:
     return digest.hexdigest()
 
 
+@cache
+def everything() -> str:
+    """The key of all that rovercheck is made of, charts and properties, too.  Raises ``OSError``."""
+    digest = sha256(deciding().encode())
+    for name in ("checker", "properties", "spec_model"):
+        for path in sorted(p for p in (_ROOT / name).rglob("*") if p.suffix in (".py", ".toml", ".json")):
+            if changed(str(path)):
+                raise ChangedMeanwhile(f"{path} has changed since it was loaded.")
+            digest.update(f"{path.relative_to(_ROOT).as_posix()}\0".encode())
+            digest.update(sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
 def as_loaded() -> bool:
     """Whether no source has changed up to now: processes that were started meanwhile may have loaded it."""
     try:

@@ -1,6 +1,7 @@
 """``--scheduler``: what is decided elsewhere is as decided here; a run that is sent is replayed here."""
 
 import json
+import shutil
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check_log import at_once as elsewhere_together
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.extras import CLUSTER
 from rovercheck.checker.process import cluster as elsewhere
@@ -18,6 +20,16 @@ from rovercheck.checker.verify.search_worker import PropertyDecided
 from tests.process.cluster import LocalCluster, local_cluster
 
 pytestmark = pytest.mark.skipif(not CLUSTER.installed, reason=CLUSTER.needed("a cluster"))
+LAMP = """from rovercheck import *
+from words import ON
+
+press, lit = flag("press"), flag("lit")
+lamp = Chart("Lamp", [
+    State("Off", entry=[assign(lit, False)], transitions=[to(ON, when=press)]),
+    State(ON, entry=[assign(lit, True)], transitions=[to("Off", when=press)]),
+], default="Off")
+LIT = reachable("LIT", "It can be lit.", that=lit, covers=("R1",), on=lamp)
+"""
 IDS = ["PB1-15", "PB1-11", "PB1-07a", "PB2-32f"]
 
 
@@ -52,6 +64,59 @@ def test_covering_tests_and_mutants_too(
         assert told[0] == told[1], verb
 
 
+VARIANT = """board = "board1"
+[[change]]
+kind = "limit"
+chart = "Monitor_temperature"
+at = "everywhere"
+from = "temperature_degC >= 60"
+to = "temperature_degC >= 59.5"
+"""
+
+
+def test_logs_with_their_map_and_a_variant_too(
+    cluster: LocalCluster, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    logs = Path(__file__).parents[2] / "examples" / "logs"
+    folder, variant = tmp_path / "logs", tmp_path / "variant.toml"
+    folder.mkdir()
+    variant.write_text(VARIANT, encoding="utf-8")
+    for number in range(elsewhere_together.TOGETHER + 2):
+        shutil.copy(logs / "faults.csv", folder / f"faults{number}.csv")
+    (folder / "none.csv").write_text("nothing\n", encoding="utf-8")
+    told = []
+    for options in (["--jobs", "1"], ["--scheduler", cluster.address]):
+        asked = [
+            "check-log",
+            str(folder),
+            "--map",
+            str(logs / "map.toml"),
+            "--variant",
+            str(variant),
+            "--json",
+        ]
+        assert run([*asked, *options]) == Exit.FAILED
+        told.append(json.loads(capsys.readouterr().out))
+    assert len(told[0]["logs"]) == elsewhere_together.TOGETHER + 3
+    assert told[0] == told[1]
+
+
+def test_a_model_of_ones_own_is_sent_with_the_logs(
+    cluster: LocalCluster, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, folder = tmp_path / "lamp.py", tmp_path / "logs"
+    folder.mkdir()
+    model.write_text(LAMP, encoding="utf-8")
+    (tmp_path / "words.py").write_text("ON = 'On'\n", encoding="utf-8")
+    (folder / "run.csv").write_text("now_ms,press,lit\n20,0,0\n40,1,1\n60,0,0\n", encoding="utf-8")
+    told = []
+    for options in ([], ["--scheduler", cluster.address]):
+        assert run(["check-log", str(folder), "--model", str(model), "--json", *options]) == Exit.FAILED
+        told.append(json.loads(capsys.readouterr().out))
+    assert told[0] == told[1]
+    assert told[0]["logs"][0]["deviations"]
+
+
 def test_no_scheduler_and_what_excludes_it(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -59,6 +124,15 @@ def test_no_scheduler_and_what_excludes_it(
     assert run(["check", "PB1-15", "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
     assert "There is no scheduler at tcp://127.0.0.1:9" in capsys.readouterr().err
     proofs = ["--certificates", str(tmp_path)]
+    assert run(["check", "PB1-11", *proofs, "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
+    assert run(["check-log", "x.csv", "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
+    capsys.readouterr()
+    log = tmp_path / "one.csv"
+    log.write_text("now_ms\n", encoding="utf-8")
+    assert run(["check-log", str(log), "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
+    assert "leave it out for one log" in capsys.readouterr().err
+    assert run(["check-log", str(tmp_path), "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
+    assert "There is no scheduler at tcp://127.0.0.1:9" in " ".join(capsys.readouterr().err.split())
     assert run(["check", "PB1-11", *proofs, "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
     assert "--certificates are written where a proof is found" in " ".join(capsys.readouterr().err.split())
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,6 +11,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import (
     VariantOptions,
     changing,
+    comparing_elsewhere,
     gathered,
     knowing,
     modelling,
@@ -17,6 +19,9 @@ from rovercheck.checker.commands.shared.options import (
     reading_logs,
     seeking_causes,
 )
+
+if TYPE_CHECKING:
+    from rovercheck.checker.process.pool import Cluster
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,7 @@ class LogOptions:
     known: Path | None = None
     write_known: Path | None = None
     jobs: int | None = None
+    scheduler: "Cluster | None" = None
     causes: bool = False
     seconds: float = 120.0
 
@@ -44,6 +50,7 @@ class LogOptions:
     metavar="N",
     help="Logs of a folder at a time; by default one per processor.",
 )
+@comparing_elsewhere
 @click.option(
     "--causes", is_flag=True, help="Look for the nearest change of the charts that explains each deviation."
 )

@@ -42,6 +42,8 @@ def check_log(
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
     files.possible()
+    if options.scheduler is not None and not place.is_dir():
+        raise UsageError("--scheduler has the logs of a folder examined elsewhere; leave it out for one log.")
     asked = request_of(variant, options)
     book = KnownBook({}, "")
     if options.known is not None or options.write_known is not None:
@@ -107,7 +109,7 @@ def _outcomes(
     logs: Sequence[Path], asked: LogRequest, charts: VariantOptions | None
 ) -> Generator[tuple[Path, Outcome], None, None]:
     """What each log says, as it is known."""
-    jobs = asked.options.jobs or cores()
+    jobs = asked.options.scheduler or asked.options.jobs or cores()
     if charts is not None and worth_it(logs, jobs):
         yield from at_once(logs, charts, asked.options, asked.used, jobs)
     else:

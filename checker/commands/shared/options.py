@@ -116,6 +116,13 @@ def _cluster(_: click.Context, __: click.Parameter, address: str | None) -> "Clu
     return None if address is None else Cluster(address, deciding)
 
 
+def _cluster_of_all(_: click.Context, __: click.Parameter, address: str | None) -> "Cluster | None":
+    from rovercheck.checker.process.pool import Cluster
+    from rovercheck.checker.store.versions import everything
+
+    return None if address is None else Cluster(address, everything)
+
+
 elsewhere = click.option(
     "--scheduler",
     metavar="ADDRESS",
@@ -123,6 +130,13 @@ elsewhere = click.option(
     help="Search on the workers of this scheduler of dask, in place of --jobs here (docs/cluster.md).",
 )
 """The option for searches on other machines."""
+comparing_elsewhere = click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    callback=_cluster_of_all,
+    help="Work on the workers of this scheduler of dask, in place of processes here (docs/cluster.md).",
+)
+"""The option for work on other machines that reads the rover's charts there."""
 
 Verb = Callable[..., Exit]
 
