@@ -33,18 +33,24 @@ class Certification:
     without: tuple[str, ...] = ()
     changes: tuple[tuple[str, ...], ...] = ()
     effort: CheckEffort = field(default_factory=CheckEffort)
+    sent: bool = False
+    """Whether proofs are found elsewhere, and sent from there to be written and checked here."""
+
+    def origin(self, task: Task, limits: Limits, results: Sequence[Result]) -> CertificateOrigin:
+        """Where the questions of one search come from."""
+        proved = tuple(r.property.id for r in results if rests_on_answers(r.verdict))
+        searched = tuple(p.id for p in task.properties)
+        changed = self.interpretations, self.repair, self.without
+        return CertificateOrigin(
+            task.system.name, searched, proved, *changed, limits.timers.value, self.changes
+        )
 
     def written(
         self, task: Task, limits: Limits, results: Sequence[Result], made: Sequence[Certificate]
     ) -> None:
         """Write the certificates of one search.  Raises ``Unwritable``."""
-        proved = tuple(r.property.id for r in results if rests_on_answers(r.verdict))
         if self.folder is not None and made:
-            searched = tuple(p.id for p in task.properties)
-            timers = limits.timers.value
-            changed = self.interpretations, self.repair, self.without
-            origin = CertificateOrigin(task.system.name, searched, proved, *changed, timers, self.changes)
-            write(self.folder, origin, made)
+            write(self.folder, self.origin(task, limits, results), made)
 
     def outcomes(
         self,

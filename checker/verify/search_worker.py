@@ -68,6 +68,13 @@ class PropertyCertified:
     outcome: Outcome
 
 
+@dataclass(frozen=True)
+class TaskCertificates:
+    """The certificates of a task that are to be checked where it was asked for, as a file holds them."""
+
+    data: bytes
+
+
 class SearchWorker:
     """Decides one task after the other about systems that are sent once."""
 
@@ -206,6 +213,11 @@ class SearchWorker:
         results: Sequence[Result],
         made: Sequence["Certificate"],
     ) -> None:
+        if certifying.sent:
+            from rovercheck.checker.certify.file import packed
+
+            send(TaskCertificates(packed(certifying.origin(task, self._limits, results), made)))
+            return
         certifying.written(task, self._limits, results, made)
         progress = Seldom(send)
         for id, outcome in certifying.outcomes(

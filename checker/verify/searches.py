@@ -20,6 +20,7 @@ from rovercheck.checker.verify.search_worker import (
     PropertyDecided,
     SearchWorker,
     StaysInDomains,
+    TaskCertificates,
 )
 from rovercheck.checker.verify.tasks import Task, tasks
 from rovercheck.properties.forms import Property
@@ -29,6 +30,7 @@ from rovercheck.spec_model.lang.system import System
 if TYPE_CHECKING:
     from rovercheck.checker.store.verdicts import VerdictStore
     from rovercheck.checker.verify.certificates import Certification
+    from rovercheck.checker.verify.sent_certificates import CertificateWorker
 
 NO_LIMITS = Limits()
 SLACK = 2 << 30
@@ -139,11 +141,16 @@ def searches(
     nothing is proved of a system that is then refused.
     """
     needed, limits, certifying = _needed(todo, systems), search.limits, search.certifying
-    settings = needed, search.engine, limits, certifying, search.store, search.traces
+    here, there = None, certifying
+    if certifying is not None and isinstance(search.jobs, Cluster):
+        from rovercheck.checker.verify.sent_certificates import CertificateWorker
+
+        here, there = CertificateWorker(needed, limits, certifying), replace(certifying, sent=True)
+    settings = needed, search.engine, limits, there, search.store, search.traces
     pool = Pool(search.jobs or cores(), SearchWorker, settings, limits.memory + SLACK)
     orders = [Order((task.system.name, task.properties, task.recorded), task.system.name) for task in todo]
     waiting = certifying is not None and certifying.again
-    returns = [_Returns(task, waiting, limits.seconds) for task in todo]
+    returns = [_Returns(task, waiting, limits.seconds, here) for task in todo]
     asked = {prop.id: one for one in returns for prop in one.task.properties}
     gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
     keep = _Keeping(search.store, systems, gates)
@@ -255,8 +262,11 @@ class _Gate:
 class _Returns:
     """What comes back of one task: verdicts wait for their certificates, if these are checked."""
 
-    def __init__(self, task: Task, waiting: bool, seconds: float | None) -> None:
+    def __init__(
+        self, task: Task, waiting: bool, seconds: float | None, certify: "CertificateWorker | None" = None
+    ) -> None:
         self.task = task
+        self._certify = certify
         self._waiting = waiting
         self._seconds = seconds
         self._doing = ""
@@ -265,6 +275,7 @@ class _Returns:
         self._reported: dict[str, str] = {}
         self._taken = False
         self._anew = False
+        self._results: list[Result] = []
         self.kept: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {}
         """By property the names under which the store keeps it, and what was searched together."""
 
@@ -306,6 +317,11 @@ class _Returns:
             case CacheRefused(why):
                 if first(message):
                     yield _not_kept(why)
+            case TaskCertificates() if self._certify is not None:
+                from rovercheck.checker.verify.sent_certificates import certified_here
+
+                for one in certified_here(self._certify, message, self.task, self._results):
+                    yield from self.on_message(one)
             case PropertyCertified(id, outcome) if id in self._held:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
             case PropertyDecided(id, verdict) if id in self._reported:
@@ -314,6 +330,7 @@ class _Returns:
                 self.kept[id] = names, together
                 asked = self._left.pop(id)
                 result = Result(asked, verdict, system, certificate=certificate, same_under=same)
+                self._results.append(result)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result
                 else:

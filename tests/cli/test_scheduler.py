@@ -1,5 +1,6 @@
 """``--scheduler``: what is decided elsewhere is as decided here; a run that is sent is replayed here."""
 
+import gzip
 import json
 import shutil
 from collections.abc import Iterator, Sequence
@@ -16,7 +17,7 @@ from rovercheck.checker.process import cluster as elsewhere
 from rovercheck.checker.process.pool import Again, Order, Pool, PoolEvent
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
-from rovercheck.checker.verify.search_worker import PropertyDecided
+from rovercheck.checker.verify.search_worker import PropertyDecided, TaskCertificates
 from tests.process.cluster import LocalCluster, local_cluster
 
 pytestmark = pytest.mark.skipif(not CLUSTER.installed, reason=CLUSTER.needed("a cluster"))
@@ -123,18 +124,42 @@ def test_no_scheduler_and_what_excludes_it(
     monkeypatch.setattr(elsewhere, "CONNECTED", 0.5)
     assert run(["check", "PB1-15", "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
     assert "There is no scheduler at tcp://127.0.0.1:9" in capsys.readouterr().err
-    proofs = ["--certificates", str(tmp_path)]
-    assert run(["check", "PB1-11", *proofs, "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
-    assert run(["check-log", "x.csv", "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
-    capsys.readouterr()
-    log = tmp_path / "one.csv"
-    log.write_text("now_ms\n", encoding="utf-8")
-    assert run(["check-log", str(log), "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
-    assert "leave it out for one log" in capsys.readouterr().err
-    assert run(["check-log", str(tmp_path), "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
-    assert "There is no scheduler at tcp://127.0.0.1:9" in " ".join(capsys.readouterr().err.split())
-    assert run(["check", "PB1-11", *proofs, "--scheduler", "tcp://127.0.0.1:9"]) == Exit.USAGE
-    assert "--certificates are written where a proof is found" in " ".join(capsys.readouterr().err.split())
+
+
+def test_proofs_that_are_sent_are_certified_and_written_here(
+    cluster: LocalCluster, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    proofs = tmp_path / "proofs"
+    asked = ["check", "PB1-11", "PB1-07a", "PB1-15", "--certify", "--certificates", str(proofs), "--json"]
+    told = []
+    for options in ([], ["--scheduler", cluster.address]):
+        assert run([*asked, *options]) == Exit.AS_EXPECTED
+        told.append(json.loads(capsys.readouterr().out)["results"])
+        assert run(["certify", str(proofs)]) == Exit.AS_EXPECTED
+        assert "rejected" not in capsys.readouterr().out
+        shutil.rmtree(proofs)
+    assert [one["certificate"]["outcome"] for one in told[1] if one["verdict"] == "proved"] == [
+        "accepted"
+    ] * 2
+    assert sorted(map(json.dumps, told[0])) == sorted(map(json.dumps, told[1]))
+
+
+def test_a_proof_that_is_sent_and_shows_nothing_is_rejected_here(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def forging(pool: Pool, orders: Sequence[Order], again: Again) -> Iterator[PoolEvent]:
+        for event in replace(pool, size=1).run(orders, again):
+            if isinstance(event.message, TaskCertificates):
+                document = json.loads(gzip.decompress(event.message.data))
+                for one in document["certificates"]:
+                    one["invariant"]["nodes"][-1][1:4] = []
+                forged = gzip.compress(json.dumps(document).encode())
+                event = replace(event, message=TaskCertificates(forged))
+            yield event
+
+    monkeypatch.setattr(elsewhere, "carried_out", forging)
+    assert run(["check", "PB1-07a", "--certify", "--scheduler", "tcp://anywhere:1"]) == Exit.INTERNAL
+    assert "CERTIFICATE REJECTED" in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_run_that_shows_nothing_here_is_an_internal_error(

@@ -72,8 +72,6 @@ class CheckOptions:
         """Raises ``UsageError`` for options that exclude each other."""
         if self.watch and (self.as_json or self.writes or self.certificates):
             raise UsageError("--watch tells what changes and writes no file; leave the other options out.")
-        if self.scheduler is not None and self.certificates:
-            raise UsageError("--certificates are written where a proof is found, with --scheduler elsewhere.")
         if self.no_premises and (self.strict or self.record_premises):
             other = "--strict" if self.strict else "--record-premises"
             raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
