@@ -7,14 +7,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from shlex import quote
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from rovercheck.checker.model import Model, names_of
 from rovercheck.checker.model.rover import rover
 from rovercheck.properties.catalogue import read_by
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, formulas
-from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Var
@@ -23,6 +22,9 @@ from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import variables
 from rovercheck.spec_model.repairs import Repair, repaired, touches
 from rovercheck.spec_model.rover import systems
+
+if TYPE_CHECKING:
+    from rovercheck.spec_model.abstraction import Board
 
 
 class SystemChanges(Protocol):
@@ -40,7 +42,7 @@ class SystemChanges(Protocol):
     def rows(self) -> tuple[tuple[str, ...], ...]:
         """The board that they are of, then each change as it is written."""
 
-    def applied(self, board: Board) -> Board:
+    def applied(self, board: "Board") -> "Board":
         """A board with those that are of it."""
 
     def touches(self, system: System) -> bool:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.select import pick
-from rovercheck.checker.compare.variants import boards_of
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run
@@ -17,13 +16,13 @@ from rovercheck.checker.verify.runs.replay import followed
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, reachable
-from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import did_you_mean
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:  # with all that tests cover
     from rovercheck.checker.system.instrument.goals import CoverGoal, Watched
+    from rovercheck.spec_model.abstraction import Board
 
 COVERS = ("an example was trace_request for",)
 
@@ -44,7 +43,8 @@ class TraceRequest:
     plain: System | None = None
     watched: "Watched | None" = None
     again: str = ""
-    boards: Callable[[], Mapping[str, Board]] = boards
+    boards: "Callable[[], Mapping[str, Board]] | None" = None
+    """The boards of the charts, where these are changed."""
 
     def drawn(self, trace: Trace) -> Trace:
         """A trace of the property on the charts as drawn, with the command that shows it."""
@@ -71,7 +71,7 @@ def trace_request(
         )
     systems = variant.systems()
     again = _again(variant, id, state, transition, system)
-    of_run = partial(boards_of, variant) if variant.own is None else boards
+    of_run = partial(_boards, variant) if variant.name and variant.own is None else None
     if id is not None:
         if system is not None:
             raise UsageError(
@@ -113,6 +113,12 @@ def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> 
         id, f"The {id} can be reached.", that=chart.active_path(path), covers=COVERS, on=on.name
     )
     return TraceRequest(_unwritten(found), systems, _unrecorded, example=True)
+
+
+def _boards(variant: Variant) -> "Mapping[str, Board]":
+    from rovercheck.checker.compare.variants import boards_of
+
+    return boards_of(variant)
 
 
 def of_transition(wanted: str, systems: Mapping[str, System], system: str | None) -> TraceRequest:

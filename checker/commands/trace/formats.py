@@ -3,14 +3,16 @@
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rovercheck.checker.commands.shared.output import table_width, write
 from rovercheck.checker.render import Renderer, named
 from rovercheck.checker.results.format import Need, Option
 from rovercheck.checker.results.trace import Trace
-from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from rovercheck.spec_model.abstraction import Board
 
 
 def exit_written(
@@ -19,19 +21,19 @@ def exit_written(
     systems: Mapping[str, System],
     output: Path | None,
     everything: bool = False,
-    boards: Callable[[], Mapping[str, Board]] = boards,
+    boards: "Callable[[], Mapping[str, Board]] | None" = None,
 ) -> list[Path]:
     """Write the trace to a file or to standard output; the further files that this made, if any.
 
-    ``boards`` are those of the charts of the run.  ``everything``: also what the property does not depend
-    on, where the format would leave it out.  A format that needs it is given the run as the boards see it;
-    one with another ``beside`` it writes a file of that under the same name.  Raises ``ModelError`` for a
-    run that the format cannot show.
+    ``boards`` are those of the charts of the run, where these are changed.  ``everything``: also what the
+    property does not depend on, where the format would leave it out.  A format that needs it is given the
+    run as the boards see it; one with another ``beside`` it writes a file of that under the same name.
+    Raises ``ModelError`` for a run that the format cannot show.
     """
     if Need.BOARD_STEPS in renderer.FORMAT.needs:
         from rovercheck.checker.commands.trace.board_steps import concrete
 
-        trace = concrete(trace, systems[trace.system.name], boards())
+        trace = concrete(trace, systems[trace.system.name], None if boards is None else boards())
     render = fitted(renderer, output)
     if Option.EVERYTHING in renderer.FORMAT.takes:
         render = partial(render, everything=everything)
