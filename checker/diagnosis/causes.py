@@ -14,6 +14,7 @@ from rovercheck.checker.diagnosis.part_causes import (
     SearchedPart,
     searched,
 )
+from rovercheck.checker.diagnosis.same_reading import read_alike
 from rovercheck.checker.process.beside import beside
 from rovercheck.checker.process.pool import cores
 from rovercheck.spec_model.abstraction import Board
@@ -79,7 +80,7 @@ def cause_groups(
     for number, found in beside(works, at_once or cores()):
         done[number] = found
         progress(f"{said}, {len(done)} of them searched")
-    every = [one for number in sorted(done) for one in done[number]]
+    every = read_alike(evidence, [one for number in sorted(done) for one in done[number]], deviations)
     cut = [one.cut for one in every if one.cut is not None]
     causes = list(_together(cause for one in every for cause in one.found(deviations)))
     told = {id(d) for one in causes for d in one.deviations}

@@ -60,6 +60,9 @@ TIERS: dict[str, float] = {
 }  # fmt: skip
 """How near a kind of change lies to the charts; 3 where nothing is said."""
 
+NUMBERS_BEGIN = 2.5
+"""How near another initial value of a number lies, of which there are many: a limit comes before it."""
+
 Nearness = tuple[float, ...]
 
 _SITE = re.compile(r"(arrow|default)(?:/(.+?))?\.(\d+)|state/(.+)/(entry|during|exit)|block")
@@ -109,6 +112,8 @@ class ChartChange:
     """What else would do."""
     reading: StampReading | None = None
     inputs: tuple[str, ...] = ()
+    tier: float | None = None
+    """How near it lies, where that is not as of its kind."""
 
     @property
     def key(self) -> tuple[str, ...]:
@@ -117,7 +122,7 @@ class ChartChange:
     @property
     def nearness(self) -> Nearness:
         """The nearer of two changes that explain as much comes first."""
-        return (TIERS.get(self.kind, 3), self.distance)
+        return (TIERS.get(self.kind, 3) if self.tier is None else self.tier, self.distance)
 
 
 def only_told() -> System:
@@ -125,4 +130,13 @@ def only_told() -> System:
     raise ModelError("A change that was found is made anew from its key, as one of a variant.")
 
 
-__all__ = ["KINDS", "TIERS", "ChangeKind", "ChartChange", "Nearness", "only_told", "place_text"]
+__all__ = [
+    "KINDS",
+    "NUMBERS_BEGIN",
+    "TIERS",
+    "ChangeKind",
+    "ChartChange",
+    "Nearness",
+    "only_told",
+    "place_text",
+]

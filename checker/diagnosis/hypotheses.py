@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 
-from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
+from rovercheck.checker.diagnosis.change import NUMBERS_BEGIN, ChangeKind, ChartChange, place_text
 from rovercheck.checker.mutate.delays import Delay, delays
 from rovercheck.checker.mutate.durings import other_durings
 from rovercheck.checker.mutate.functions import function_rewrites
@@ -28,7 +28,7 @@ from rovercheck.spec_model.abstraction.readings import readings_of
 from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.interpretations import Alternative, alternatives, name_of
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
-from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.edit import in_system
 from rovercheck.spec_model.lang.expr import Const, Expr, Var
 from rovercheck.spec_model.lang.system import System
@@ -50,9 +50,12 @@ MOST_CONDITIONS = 60
 
 def mutant_changes(system: System, only: frozenset[str] | None = None) -> Iterator[ChartChange]:
     """The first-order mutants."""
+    numbers = {name for name, var in system.written.items() if isinstance(var.sort, Num)}
     for one in mutants(system, only):
         if one.operator in OPERATORS:
-            yield _of_mutant(one)
+            change = _of_mutant(one)
+            of_number = change.kind == "initial" and change.at.split("/")[1] in numbers
+            yield replace(change, tier=NUMBERS_BEGIN) if of_number else change
 
 
 def _of_mutant(one: Mutant) -> ChartChange:
@@ -174,7 +177,8 @@ def beginning_changes(system: System, only: frozenset[str]) -> Iterator[ChartCha
             for one in other_beginnings(system, part):
                 old, new = one.var.domain.show(one.var.init), one.var.domain.show(one.value)
                 text = f"{one.var.name} begins as {new}, not as {old}, and the default transition keeps it so"
-                yield ChartChange("initial", part.name, one.site, old, new, text, one.make, 0.5)
+                tier = NUMBERS_BEGIN if isinstance(one.var.sort, Num) else None
+                yield ChartChange("initial", part.name, one.site, old, new, text, one.make, 0.5, tier=tier)
 
 
 def during_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:

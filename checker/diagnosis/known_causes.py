@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
-from rovercheck.checker.diagnosis.causes import PartChanges
 from rovercheck.checker.diagnosis.evidence import DecodedRun, Evidence, PartEvidence
+from rovercheck.checker.diagnosis.part_causes import PartChanges
 from rovercheck.checker.diagnosis.pieces import differing, rows_of
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.diagnosis.variant import with_changes

@@ -130,11 +130,32 @@ def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:
             yield from _of_part(system, part)
 
 
+COUNTED = 4
+"""Conditions that a formula counts, from which on its numbers 1 and 0 are no numbers that somebody wrote."""
+
+
+def _not_written(formula: Expr) -> set[int]:
+    """The places of bits, and the 1 and 0 of a formula that counts: ``(a ? 1 : 0) + (b ? 1 : 0) + ...``."""
+    counts, bits = list[int](), set[int]()
+    for node in nodes(formula):
+        match node:
+            case Apply(Op.ITE, (_, Const(1, Num()) as one, Const(0, Num()) as none)):
+                counts += id(one), id(none)
+            case Apply(Op.BIT, (_, place)):
+                bits.add(id(place))
+    return bits | set(counts if len(counts) >= 2 * COUNTED else ())
+
+
 def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
+    given: dict[int, set[int]] = {}
     same: dict[object, list[NumberSlot]] = {}
     repeated: dict[object, list[NumberSlot]] = {}
     for place, node, put, limit in numbers_in(part):
         at = f"{place.site} {place.role}"
+        if id(place.formula) not in given:
+            given[id(place.formula)] = _not_written(place.formula)
+        if limit is None and id(node) in given[id(place.formula)]:
+            continue
         if limit is None:
             assert isinstance(node, Const)
             yield NumberSlot(part.name, at, node, None, None, partial(_plain, place, put), system)

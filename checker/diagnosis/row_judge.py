@@ -9,6 +9,9 @@ from rovercheck.checker.diagnosis.trial import Parameter, TrialBench
 LIKELY = 3
 """Conforming runs that have contradicted most changes, with which a change is tried first."""
 
+OPEN = 10
+"""Of so many conforming runs one may be left open by a change, such as one in which columns are lost."""
+
 
 class RowJudge:
     """Says what is wrong with changed parts; ``rows`` are those of each deviation, by its place.
@@ -29,10 +32,13 @@ class RowJudge:
     def mostly_right(self, bench: TrialBench, base: Sequence[Wrong], cone: LogCone) -> list[Wrong] | None:
         """What is wrong with a changed part in each run; ``None`` if something is earlier than before."""
         found: list[Wrong] = [{} for _ in base]
+        left_open = 0
         for number in self._order(base):
             before = base[number]
             if not before:
-                wrong = not bench.passes(cone, number, None)
+                holds = bench.holds(cone, number)
+                left_open += holds is None
+                wrong = holds is False or left_open > _conforming(base) // OPEN
             else:
                 found[number] = dict(_rows_of(bench, cone, number, None, before))
                 wrong = min(found[number], default=len(bench.runs[number])) < min(before)
@@ -54,11 +60,13 @@ class RowJudge:
         ``None`` if something is that was right before, or if none of those concerned is explained.
         """
         found: list[Wrong] = [{} for _ in base]
-        left = concerned
+        left, left_open = concerned, 0
         for number in self._order(base):
             before = base[number]
             if not before:
-                wrong = not bench.passes(cone, number, None, parameter)
+                holds = bench.holds(cone, number, parameter)
+                left_open += holds is None
+                wrong = holds is False or left_open > _conforming(base) // OPEN
             else:
                 rows = _within(bench, cone, number, parameter, before)
                 wrong = rows is None
@@ -90,6 +98,10 @@ class RowJudge:
         conforming = [n for n in every if not base[n]]
         deviating = [n for n in every if base[n]]
         return [*conforming[:LIKELY], *deviating, *conforming[LIKELY:]]
+
+
+def _conforming(base: Sequence[Wrong]) -> int:
+    return sum(not wrong for wrong in base)
 
 
 def _within(

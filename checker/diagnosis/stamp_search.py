@@ -90,6 +90,8 @@ class StampSearch:
         for number in runs:
             rows: dict[int, frozenset[tuple[str, int]]] = {}
             for row, mismatch in bench.mismatches(self._cone, number):
+                if mismatch is None and not rows and not self._base[number]:
+                    break  # a conforming run that is left open: the judge of rows counts these
                 rows[row] = NOT_DECIDED if mismatch is None else differing(mismatch)
                 count += len(rows[row])
                 if count >= least:

@@ -128,6 +128,22 @@ class TrialBench:
             return False
         return wrong is None or (last is not None and wrong > last)
 
+    def holds(self, cone: LogCone, number: int, parameter: Parameter | None = None) -> bool | None:
+        """Whether a changed part explains a whole run; ``None``: not decided, and nothing before is wrong."""
+        step = cone.step if parameter is None else with_parameter(cone, *parameter)
+        run = self.runs[number]
+        try:
+            if run.run.from_power_up and not any(run.missing):
+                try:
+                    rows = self._prepared(cone)
+                    return self._followed(cone, step, number, rows, None, NOTHING) is None
+                except (NeededInputs, _TooManyStates):
+                    pass
+            found = next(self.mismatches(cone, number, parameter), None)
+        except NO_VALUE:
+            return False
+        return True if found is None else None if found[1] is None else False
+
     def passing(
         self,
         cone: LogCone,

@@ -150,7 +150,7 @@ READINGS: Mapping[str, tuple[str, Callable[[], Take]]] = {
         f"new in every step from update {n} on": (
             f"{{}} were new in every step from its update {n} on", partial(_NewFrom, n)
         )
-        for n in (1, 2, 4, 8, 16, 32, 64, 128, 256)
+        for n in (256, 128, 64, 32, 16, 8, 4, 2, 1)  # the later, the fewer steps are otherwise
     },
     "of the first step": ("{} were read in the first step only", _First),
     "never": ("{} were not read: always 0", lambda: lambda _stamp, _now: 0),
