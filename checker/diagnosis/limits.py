@@ -130,12 +130,8 @@ def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:
             yield from _of_part(system, part)
 
 
-COUNTED = 4
-"""Conditions that a formula counts, from which on its numbers 1 and 0 are no numbers that somebody wrote."""
-
-
 def _not_written(formula: Expr) -> set[int]:
-    """The places of bits, and the 1 and 0 of a formula that counts: ``(a ? 1 : 0) + (b ? 1 : 0) + ...``."""
+    """The places of bits, and each 1 and 0 of a formula that counts four conditions or more."""
     counts, bits = list[int](), set[int]()
     for node in nodes(formula):
         match node:
@@ -143,7 +139,7 @@ def _not_written(formula: Expr) -> set[int]:
                 counts += id(one), id(none)
             case Apply(Op.BIT, (_, place)):
                 bits.add(id(place))
-    return bits | set(counts if len(counts) >= 2 * COUNTED else ())
+    return bits | set(counts if len(counts) >= 8 else ())
 
 
 def _of_part(system: System, part: Chart | Block) -> Iterator[NumberSlot]:
