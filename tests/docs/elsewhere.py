@@ -100,6 +100,9 @@ COMMANDS = {
         "any scenario; tests/cli/test_simulate.py draws the pictures",
         "rovercheck simulate examples/scenarios/link_loss.toml --log logs -o run.csv",
     ),
+    "rovercheck simulate INPUTS.csv --model PATH": Instead(
+        "a model and a table of one's own; tests/cli/test_simulate_charts.py has some"
+    ),
     "rovercheck simulate SCENARIO.toml --log logs": Instead("the line with -o writes the log, too"),
     "rovercheck simulate SCENARIO.toml --no-plot": Instead("any scenario; the first line is run so"),
     "rovercheck simulate examples/scenarios/link_loss.toml": Instead("the line below it runs this scenario"),
