@@ -19,6 +19,15 @@ at = "everywhere"
 from = "temperature_degC >= 60"
 to = "temperature_degC >= 59.5"
 """
+ELSEWHERE = """board = "board1"
+
+[[change]]
+kind = "signal"
+chart = "Monitor_wheel_RL"
+at = "arrow/decide.1"
+from = "hasNoFeedback_RL"
+to = "rx_slow"
+"""
 STAMP = """
 [[change]]
 kind = "stamp"
@@ -121,6 +130,20 @@ def test_what_no_system_shows_is_said(variant: Path, capfd: pytest.CaptureFixtur
         in told
     )
     assert "with variant.toml but for change 2; as specified it is proved" in told
+
+
+def test_what_a_change_leaves_out_is_not_as_expected(
+    variant: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """A wheel monitor that reads another signal than its own slice has."""
+    variant.write_text(ELSEWHERE, encoding="utf-8")
+    assert run(["check", "PB1-06a-RL", "PB1-04c", "--variant", str(variant)]) == Exit.INCONCLUSIVE
+    told = shown(capfd)
+    assert (
+        "PB1-06a-RL is left out: variant.toml, change 1 (signal in Monitor_wheel_RL) cannot be made" in told
+    )
+    assert "it reads rx_slow, which the system does not have." in told
+    assert "✓ PB1-04c proved" in told
 
 
 def test_a_model_of_ones_own_has_variants(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -200,6 +200,7 @@ def check(
         if chains is not None:
             more = *properties, *variant.promised(), *chains.links.values()
             properties = list({p.id: p for p in more}.values())
+        chosen = len(properties)
         if variant.name:
             properties = askable(variant, properties)
         settings = _settings(search, options, variant)
@@ -208,7 +209,7 @@ def check(
         deliver = _delivering(options, variant)
         asked = None if selection.whole else {p.id for p in properties}
         further = _further(options, variant, settings, chains, asked)
-        return run(
+        code = run(
             CheckRequest(
                 properties,
                 variant.systems(),
@@ -224,6 +225,8 @@ def check(
                 options.as_json, options.quiet, guide, brief(len(properties), options.verbose), deliver
             ),
         )
+        left_out = variant.changes is not None and len(properties) < chosen
+        return Exit.INCONCLUSIVE if left_out and code == Exit.AS_EXPECTED else code
 
 
 def _without_watch() -> list[str]:
