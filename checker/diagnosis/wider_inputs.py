@@ -96,7 +96,10 @@ def _is_measured(limit: Limit, measured: Container[str]) -> bool:
 
 def _is_exact(limit: Limit, system: System) -> bool:
     """Whether nothing that is compared with the limit lies between the values of its domain."""
-    return all(v.sort == Num(Fraction(1), v.sort.unit) or _stops(system, v) for v in limit.variables.values())  # type: ignore[union-attr]
+    return all(
+        (isinstance(v.sort, Num) and v.sort.resolution == 1) or _stops(system, v)
+        for v in limit.variables.values()
+    )
 
 
 def _note(limit: Limit) -> Note:

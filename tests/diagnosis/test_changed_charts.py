@@ -49,6 +49,10 @@ def oven(domain: Domain, condition: Callable[[Var], Expr]) -> System:
     return judged("oven", readings, condition(warmth))
 
 
+def at(condition: Callable[[Expr, Fraction], Expr], limit: Fraction) -> Callable[[Var], Expr]:
+    return lambda warmth: condition(warmth, limit)
+
+
 CONDITIONS: dict[str, Callable[[Expr, Fraction], Expr]] = {
     "closed": lambda warmth, limit: warmth >= limit,
     "open": lambda warmth, limit: warmth > limit,
@@ -70,9 +74,9 @@ def test_a_verdict_on_few_values_is_that_on_all_whatever_the_limit_is(kind: str)
     condition = CONDITIONS[kind]
     told = set[str]()
     for limit in (Fraction(half, 2) for half in (0, 3, *range(117, 124), 173)):
-        drawn = oven(FEW, lambda warmth: condition(warmth, Fraction(60)))
-        few = widened(oven(FEW, lambda warmth: condition(warmth, limit)), drawn)  # noqa: B023
-        every = oven(DENSE, lambda warmth: condition(warmth, limit))  # noqa: B023
+        drawn = oven(FEW, at(condition, Fraction(60)))
+        few = widened(oven(FEW, at(condition, limit)), drawn)
+        every = oven(DENSE, at(condition, limit))
         for asked in ASKED:
             found, right = (verdict(s, asked(s.written["warmth"])) for s in (few, every))
             assert found == right, (limit, asked(every.written["warmth"]))
@@ -88,7 +92,7 @@ def test_a_limit_that_is_there_as_drawn_needs_no_other_values() -> None:
 
 def test_beyond_the_ends_of_a_range_nothing_is_measured() -> None:
     percent = fixed(0, 100, 1)
-    drawn, changed = (oven(percent, lambda charge, at=at: charge >= at) for at in (60, 120))  # type: ignore[misc]
+    drawn, changed = (oven(percent, at(CONDITIONS["closed"], Fraction(limit))) for limit in (60, 120))
     assert widened(changed, drawn).written["warmth"].domain == percent
 
 
