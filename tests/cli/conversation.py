@@ -61,7 +61,7 @@ def main() -> None:
         patch.object(reporting, "proofs", lambda record: ()),
         patch.object(reporting, "repair_pages", lambda proved: {}),
         patch.object(generating, "aims", lambda names, kinds, boards: toy),
-        patch.object(generating, "systems", lambda: {cover_toys.TOY.name: cover_toys.SYSTEM}),
+        patch.object(generating, "_model", lambda board, charts: cover_toys.SYSTEM),
     ):
         for command in COMMANDS:
             print(f"{MARK} {command.split()[0]}", flush=True)
