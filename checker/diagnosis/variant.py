@@ -30,6 +30,7 @@ from rovercheck.spec_model.lang.system import System
 
 KEYS = ("kind", "chart", "at", "from", "to")
 _WRITE = "Write a file as `rovercheck compare --write-variant` or `rovercheck diagnose --write` does."
+_NUMBER = re.compile(r"-?\d{1,30}(?:\.\d{1,30}|/\d{1,30})?")
 _SPAN = re.compile(r"(\d+(?:\.\d+)?) (s|ms|ticks?)\b")
 
 
@@ -209,8 +210,11 @@ def _numbers(system: System, only: frozenset[str], change: WrittenChange) -> Ite
         op = Op(word) if slot.op is not None and word in set(Op) else None
         if (slot.op is None) != (op is None):
             continue
+        text = number if op else change.new
+        if _NUMBER.fullmatch(text) is None:
+            continue
         try:
-            raw = Fraction(number if op else change.new) / slot.sort.resolution
+            raw = Fraction(text) / slot.sort.resolution
         except (ValueError, ZeroDivisionError):
             continue
         yield slot.change(op, raw)

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-OF_A_MODEL = (".py", ".toml", ".json", ".txt")
+OF_A_MODEL = (".py", ".toml")
 """Suffixes of the files that a model in Python is made of, or that lie beside it."""
 
 

@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.chain_status import Chains
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.variant import pick_variant
 
 CHANGE = """board = "board1"
 evidence = "compare, c:firmware: the changes explain 41 of 41 deviations."
@@ -104,6 +106,7 @@ def test_its_certificates_are_checked_without_the_file(
     variant.unlink()
     assert run(["certify", str(folder)]) == Exit.AS_EXPECTED
     assert "1 accepted" in shown(capfd)
+    capfd.readouterr()
     [file] = folder.iterdir()
     document = json.loads(file.read_text(encoding="utf-8"))
     document["origin"]["changes"][1][4] = "temperature_degC >= 62"
@@ -113,6 +116,35 @@ def test_its_certificates_are_checked_without_the_file(
     file.write_text(json.dumps(document), encoding="utf-8")
     assert run(["certify", str(folder)]) != Exit.AS_EXPECTED
     assert "its changes do not fit the charts" in shown(capfd)
+
+
+def test_links_of_chains_are_asked_of_the_changed_charts(variant: Path) -> None:
+    """All of `check --variant` was refused: a link was asked of a system with finer steps than its own."""
+    chains = Chains(pick_variant([], None, [], None, variant))
+    assert {p.on for p in chains.links.values()} & {"temperature", "board1_ms"}
+    variant.write_text(ELSEWHERE, encoding="utf-8")
+    assert Chains(pick_variant([], None, [], None, variant)).links is not None
+
+
+def test_a_certificate_with_a_change_that_its_system_has_not_got_is_rejected(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "proofs"
+    assert run(["check", "PB1-06a-RL", "--certificates", str(folder)]) == Exit.AS_EXPECTED
+    [file] = folder.iterdir()
+    document = json.loads(file.read_text(encoding="utf-8"))
+    change = ["signal", "Monitor_wheel_RL", "arrow/decide.1", "hasNoFeedback_RL", "rx_slow"]
+    document["origin"]["changes"] = [["board1"], change]
+    file.write_text(json.dumps(document), encoding="utf-8")
+    capfd.readouterr()
+    assert run(["certify", str(folder)]) == Exit.FAILED
+    assert "it reads rx_slow, which the system does not have" in shown(capfd)
+
+
+def test_a_number_without_end_is_refused_at_once(variant: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    variant.write_text(CHANGE.replace("59.5", "1e999999999"), encoding="utf-8")
+    assert run(["check", "PB1-01a", "--variant", str(variant)]) == Exit.USAGE
+    assert "variant.toml, change 1 (limit in Monitor_temperature)" in shown(capfd)
 
 
 def test_a_chart_is_drawn_with_its_changes(variant: Path, tmp_path: Path) -> None:

@@ -5,9 +5,11 @@ from dataclasses import replace
 from functools import cache
 from random import Random
 
+from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.numbers import value_of
 from rovercheck.checker.conformance.program import Known, ProgramOutput, compiled
 from rovercheck.checker.conformance.recording import LogBlock, Raw, Recording
+from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
 from rovercheck.checker.diagnosis.result import BoardDiagnosis, diagnose_board
 from rovercheck.spec_model.abstraction import Board, Value, boards
@@ -27,6 +29,18 @@ CALM: Mapping[str, Mapping[str, Value]] = {
     "board1": {"temperature_degC": 25.0, "battery_pct": 80.0, "isMotionConsistent": True},
     "board2": {"d1": 301, "d2": 301, "d3": 301, "crit_mask_b1": 4},
 }
+
+
+class LostTracker(Tracker):
+    """Cannot follow a run from its fourth row on."""
+
+    rows = 0
+
+    def step(self, row: TrackedRow) -> LogMismatch | None:
+        self.rows += 1
+        if self.rows == 4:
+            self.undecided = UndecidedRow(row.tick, self.cone.name, "too many states")
+        return None
 
 
 def inputs(board: str, held: Held) -> list[Row]:

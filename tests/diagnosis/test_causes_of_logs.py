@@ -8,9 +8,7 @@ import pytest
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.deviations import Deviation
-from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 from rovercheck.checker.diagnosis import same_reading, trial
 from rovercheck.checker.diagnosis.change import TIERS, ChartChange
 from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector
@@ -20,7 +18,7 @@ from rovercheck.checker.diagnosis.part_causes import DeviationCause, PartChanges
 from rovercheck.checker.diagnosis.row_judge import OPEN, RowJudge
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.abstraction import boards
-from tests.diagnosis.planted import inputs, recorded
+from tests.diagnosis.planted import LostTracker, inputs, recorded
 
 BOARD1, BOARD2 = boards()["board1"], boards()["board2"]
 
@@ -57,15 +55,6 @@ def test_of_ten_conforming_runs_a_change_may_leave_one_open(left_open: int) -> N
 
 
 def test_a_run_that_cannot_be_followed_is_neither_right_nor_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Lost(Tracker):
-        rows = 0
-
-        def step(self, row: TrackedRow) -> LogMismatch | None:
-            self.rows += 1
-            if self.rows == 4:
-                self.undecided = UndecidedRow(row.tick, self.cone.name, "too many states")
-            return None
-
     given = inputs("board1", [(20, {}), (20, {"temperature_degC": 70.0})])
     run = recorded("board1", BOARD1.system, given, "hot")
     [block] = run.blocks()
@@ -78,7 +67,7 @@ def test_a_run_that_cannot_be_followed_is_neither_right_nor_wrong(monkeypatch: p
     assert bench.holds(part.cone, 0) is False
     monkeypatch.setattr(trial.TrialBench, "_followed", _too_many)
     monkeypatch.setattr(trial, "_explained", lambda *_: 0)
-    monkeypatch.setattr(trial, "Tracker", Lost)
+    monkeypatch.setattr(trial, "Tracker", LostTracker)
     assert bench.holds(part.cone, 0) is None
 
 

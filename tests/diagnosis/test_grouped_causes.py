@@ -4,9 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.recording import Raw, Recording
-from rovercheck.checker.conformance.tracker import TrackedRow, Tracker, UndecidedRow
 from rovercheck.checker.diagnosis import trial
 from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups, followed
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector
@@ -15,7 +13,7 @@ from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.chart import Block, Chart
 from rovercheck.spec_model.lang.edit import constant, in_expressions, timer
 from rovercheck.spec_model.lang.time import sec
-from tests.diagnosis.planted import changed, inputs, part_of, recorded
+from tests.diagnosis.planted import LostTracker, changed, inputs, part_of, recorded
 
 BOARD1 = boards()["board1"]
 STAMP = "last_valid_b2_ms"
@@ -61,15 +59,6 @@ def test_what_is_not_decided_is_not_explained(monkeypatch: pytest.MonkeyPatch) -
     The rows before the first deviation are explained without a tracker.
     """
 
-    class Lost(Tracker):
-        rows = 0
-
-        def step(self, row: TrackedRow) -> LogMismatch | None:
-            self.rows += 1
-            if self.rows == 4:
-                self.undecided = UndecidedRow(row.tick, self.cone.name, "too many states")
-            return None
-
     given = inputs("board1", [(20, {}), (20, {"temperature_degC": 70.0}), (300, {})])
     run = recorded("board1", BOARD1.system, given, "hot")
     [block] = run.blocks()
@@ -79,7 +68,7 @@ def test_what_is_not_decided_is_not_explained(monkeypatch: pytest.MonkeyPatch) -
     collector.add(Recording("hot", run.signals, True, lambda: [replace(block, values=cool)]))
     [part] = [one for one in collector.evidence().parts if one.name == "Monitor_temperature"]
     bench = trial.TrialBench(part)
-    monkeypatch.setattr(trial, "Tracker", Lost)
+    monkeypatch.setattr(trial, "Tracker", LostTracker)
     assert [row for row, _ in bench.mismatches(part.cone, 0)] == list(range(23, len(given)))
     judged = bench.trial(part.cone)
     assert judged.cases and judged.explained == 0 and not judged.full

@@ -123,8 +123,9 @@ def _decided(
 ) -> Mapping[str, Result]:
     """The results for all properties of the search, decided again by a reader of certificates."""
     known = variant.properties()
-    named = [pick("property", id, known) for id in origin.properties]
-    properties: tuple[Property, ...] = tuple(variant.askable(named)[0] if variant.changes else named)
+    properties: tuple[Property, ...] = tuple(
+        variant.asked(pick("property", id, known)) for id in origin.properties
+    )
     if any(p.on != origin.system for p in properties):
         raise UsageError(f"{origin.properties[0]} is not about {origin.system}")
     if len({isinstance(p.form, Unbounded) for p in properties}) > 1:

@@ -66,7 +66,12 @@ class Chains:
         if self.variant.name:
             specified, before, after = Variant({}).properties(), Variant({}).systems(), self.variant.systems()
             concerned = sorted(filter(self.variant.concerns(), links), key=lambda p: p.on)
-            links = [p for p in concerned if not same(_slice(before, specified[p.id]), _slice(after, p))]
+            made = {p.id: p for p in self.variant.askable(concerned)[0]}
+            links = [
+                p
+                for p in concerned
+                if p.id not in made or not same(_slice(before, specified[p.id]), _slice(after, made[p.id]))
+            ]
         return {p.id: p for p in links}
 
     def standings(self, found: Sequence["CheckedProperty"]) -> list[ChainStatus]:

@@ -138,7 +138,8 @@ def _variant(result: CompareResult, grouping: CauseGrouping, address: str, varia
     kept = (key for one in grouping.causes if one.part not in searched for key in one.changes)
     before = [WrittenChange(*key) for key in (*(rows if board == name else ()), *kept)]
     explained = {one.scope for part in found for one in part.deviations}
-    explained |= {one.scope for one in result.deviations if grouping.known(one)}
+    of_kept = {id for one in grouping.causes if one.part not in searched for id in one.deviations}
+    explained |= {one.scope for one in result.deviations if one.scope.id(name) in of_kept}
     every = {one.scope for one in result.deviations}
     steps = f"{result.compared:,} steps from seed {result.seed}"
     rest = counted(len(every), "deviation", "deviations")

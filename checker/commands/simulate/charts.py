@@ -69,8 +69,7 @@ def _run(system: System, place: Path) -> Session:
         try:
             if given:
                 session.set(given)
-            for _ in range(steps := _steps(row)):
-                session.advance(1)
+            session.advance(steps := _steps(row))
         except (RefusedInput, ModelError, ValueError) as error:
             raise UsageError(f"{whole(place)}, line {line}: {error}") from error
         if len(session.simulation) > MOST_TICKS:
@@ -93,7 +92,7 @@ def _steps(row: Row) -> int:
 def _rows(place: Path, inputs: Mapping[str, object]) -> Sequence[tuple[int, Row]]:
     """The rows of a table by their lines.  Raises ``UsageError``."""
     try:
-        with place.open(encoding="utf-8", newline="") as file:
+        with place.open(encoding="utf-8-sig", newline="") as file:
             table = list(csv.reader(file))
     except OSError as error:
         raise UsageError(
