@@ -66,7 +66,7 @@ def _needed(
         cone = part.group.cone(board.system)
     except (ModelError, StopIteration):
         return dict.fromkeys(cover.changes[number][1], 1)
-    bench = TrialBench(part, board.interface.taken[taken:])
+    bench = TrialBench(part, board.interface.taken[taken:], cover.bench.ends if cover.bench else {})
     found: dict[int, int] = {}
     for at, run in enumerate(bench.runs):
         if not run.wrong.get(part.name):

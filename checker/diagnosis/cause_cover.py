@@ -17,7 +17,7 @@ from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import ChartChange, Nearness
 from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness
-from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, wrong_of
@@ -123,13 +123,20 @@ class _CoverSearch(HypothesisSearch):
             self._take(instead)
             sound = self._now
         self._back(sound)
-        self._cover.left, self._cover.base, self._cover.system = self._left, self._base, self._system
+        told = frozenset[int]().union(*(own for _, own in self._cover.changes))
+        self._cover.left, self._cover.base, self._cover.system = self._left - told, self._base, self._system
         self._cover.bench = self._bench
         self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late
 
     def _sound(self, drawn: Sequence[Wrong]) -> bool:
         """Whether nothing is wrong that was right without any change."""
-        return all(new.keys() <= old.keys() for old, new in zip(drawn, self._base, strict=True))
+        decided = map(self._decided, self._bench.runs)
+        three = zip(drawn, self._base, decided, strict=True)
+        return all(row in old or row >= end for old, new, end in three for row in new)
+
+    def _decided(self, run: DecodedRun) -> int:
+        """How many rows of a run the charts as drawn decide."""
+        return run.undecided.get(self._name, len(run))
 
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
@@ -153,9 +160,13 @@ class _CoverSearch(HypothesisSearch):
         return bool(self._good) or self._combined()
 
     def _begin(self, bridge: CoveringChange) -> None:
-        """Take a change that makes something wrong, which belongs to deviations of the same outputs now."""
+        """Take a change that makes something wrong."""
         before = list(self._base)
         self._accept(bridge)
+        self._belongs(before)
+
+    def _belongs(self, before: Sequence[Wrong]) -> None:
+        """What is wrong now and was not before belongs to deviations of the same outputs."""
         rows = {place: dict(own) for place, own in self._rows.items()}
         places = sorted(rows, key=lambda n: n not in self._left)
         for run, old, new in zip(self._bench.runs, before, self._base, strict=True):
@@ -237,6 +248,15 @@ class _CoverSearch(HypothesisSearch):
         self._left -= one.explains
         self._base, self._system = list(one.wrong), one.system
         self._bench = self._bench.with_reading(one.change.reading)
+        self._go_on()
+
+    def _go_on(self) -> None:
+        """Take in the rows in which nobody could know what is right without the change taken last."""
+        before = list(self._base)
+        self._bench, found = self._bench.going_on(self._evidence.group.cone(self._system))
+        for number, wrong in found.items():
+            self._base[number] = wrong
+        self._belongs(before)
 
     def order(self, change: ChartChange) -> Nearness:
         """Initial values first, where something differs in the first step of a run."""

@@ -9,6 +9,7 @@ from rovercheck.checker.mutate.delays import Delay, delays
 from rovercheck.checker.mutate.durings import other_durings
 from rovercheck.checker.mutate.functions import function_rewrites
 from rovercheck.checker.mutate.memory import shared_memory
+from rovercheck.checker.mutate.regions import BITS, RegionsInOneMemory, regions_in_one_memory
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.power_up import other_beginnings
 from rovercheck.checker.mutate.rewrites import (
@@ -75,6 +76,24 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
                 yield _of_rewrite(system, part, one, "shared")
             for one in function_rewrites(part, system.step_ms):
                 yield _of_rewrite(system, part, one, OPERATORS.get(one.kind, "dropped"))
+
+
+def region_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:
+    """Two regions in one memory, as where two instances of one structure are one."""
+    for one in regions_in_one_memory(system):
+        if one.chart.name in only:
+            yield _of_regions(system, one)
+
+
+def _of_regions(system: System, one: RegionsInOneMemory) -> ChartChange:
+    first, second = one.first.name, one.second.name
+    text = f"the regions {first} and {second} share one memory, active state and times included"
+    if one.bits:
+        text += f", and times are added up in {BITS} bits"
+    return ChartChange(
+        "shared", one.chart.name, f"regions/{one.bits}" if one.bits else "regions", second, first, text,
+        partial(one.system, system), 0.5,
+    )  # fmt: skip
 
 
 REWRITES: Mapping[str, ChangeKind] = {
@@ -305,5 +324,5 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 __all__ = [
     "beginning_changes", "delay_changes", "during_changes", "extra_changes", "mutant_changes",
-    "rewrite_changes", "signals_of", "stamp_changes", "timer_changes", "written_changes",
+    "region_changes", "rewrite_changes", "signals_of", "stamp_changes", "timer_changes", "written_changes",
 ]  # fmt: skip

@@ -111,6 +111,8 @@ class ChangeInfluence:
             return self._nodes
         if change.inputs:
             return change.inputs
+        if change.at.startswith("regions"):
+            return [controls[name] for name in (change.old, change.new) if name in controls]
         if change.kind == "shared":
             return [n for n in self._nodes if n.startswith((change.old, change.new))]
         if change.at == EVERYWHERE and len(controls) > 1:

@@ -19,6 +19,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     during_changes,
     extra_changes,
     mutant_changes,
+    region_changes,
     rewrite_changes,
     signals_of,
     stamp_changes,
@@ -170,6 +171,7 @@ class HypothesisSearch(ABC):
         found += beginning_changes(system, only)
         found += during_changes(system, only)
         found += rewrite_changes(system, self._signals(), only)
+        found += region_changes(system, only)
         outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
         found += delay_changes(system, only, outputs)
         found += stamp_changes(self._board, system, only)

@@ -18,6 +18,7 @@ from rovercheck.checker.diagnosis.evidence import (
     logged_of,
     taken_otherwise,
 )
+from rovercheck.checker.diagnosis.pieces import Wrong, differing
 from rovercheck.spec_model.abstraction.readings import StampReading
 
 FEW_VARIABLES = 8
@@ -33,6 +34,7 @@ Parameter = tuple[str, Raw]
 """An input that always has one value: a limit that is tried."""
 
 NOTHING: Mapping[int, Known] = {}
+ALL: Mapping[int, int] = {}
 
 Rows = Sequence[tuple[tuple[Known, ...], Known]]
 """Of each row every combination of inputs that the part may have seen, and its outputs."""
@@ -56,11 +58,17 @@ class Trial:
 class TrialBench:
     """Tries changes of one part; the rows are prepared once for all that read the same.
 
-    ``readings``: stamps that are taken otherwise than the board does.
+    ``readings``: stamps that are taken otherwise than the board does.  ``ends``: how many rows of a run count,
+    by its number, where that is not as many as the charts as drawn decide.
     """
 
-    def __init__(self, evidence: PartEvidence, readings: Sequence[StampReading] = ()) -> None:
-        self.evidence, self.readings = evidence, tuple(readings)
+    def __init__(
+        self,
+        evidence: PartEvidence,
+        readings: Sequence[StampReading] = (),
+        ends: Mapping[int, int] = ALL,
+    ) -> None:
+        self.evidence, self.readings, self.ends = evidence, tuple(readings), dict(ends)
         deviating = evidence.deviating
         firsts = {id(run): run.cases(evidence.name)[0].first for run in deviating}
         self.runs = sorted(evidence.runs, key=lambda run: firsts.get(id(run), 10**9 + len(run)))
@@ -71,7 +79,32 @@ class TrialBench:
 
     def with_reading(self, reading: StampReading | None) -> "TrialBench":
         """The same with one more stamp taken otherwise."""
-        return self if reading is None else TrialBench(self.evidence, (*self.readings, reading))
+        if reading is None:
+            return self
+        return TrialBench(self.evidence, (*self.readings, reading), self.ends)
+
+    def going_on(self, cone: LogCone) -> tuple["TrialBench", dict[int, Wrong]]:
+        """The same with all rows that a changed part decides of runs that the drawn one does not decide.
+
+        And, by their numbers, what it gets wrong in these runs.
+        """
+        every = {n: len(run) for n, run in enumerate(self.runs) if self._end(n) < len(run)}
+        whole = TrialBench(self.evidence, self.readings, every)
+        ends, found = dict(self.ends), dict[int, Wrong]()
+        for number, end in every.items():
+            wrong: dict[int, frozenset[tuple[str, int]]] = {}
+            for row, mismatch in whole.mismatches(cone, number):
+                if mismatch is None:
+                    end = row
+                    break
+                wrong[row] = differing(mismatch)
+            if end > self._end(number):
+                ends[number], found[number] = end, wrong
+        return TrialBench(self.evidence, self.readings, ends), found
+
+    def _end(self, number: int) -> int:
+        run = self.runs[number]
+        return self.ends.get(number, run.undecided.get(self.evidence.name, len(run)))
 
     def rejected(self, cone: LogCone, parameter: Parameter | None = None) -> tuple[int, int] | None:
         """The run and the row of a first contradiction; ``None``: every row of every run is explained.
@@ -195,8 +228,7 @@ class TrialBench:
                     given[at] = tuple(
                         (*one[:place], value, *one[place + 1 :]) for one, value in product(given[at], values)
                     )
-            end = run.undecided.get(self.evidence.name, len(run))
-            found = rows[number] = list(zip(given, logged, strict=True))[:end]
+            found = rows[number] = list(zip(given, logged, strict=True))[: self._end(number)]
         return found
 
     # --- following ---

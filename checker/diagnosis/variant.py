@@ -14,6 +14,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
     during_changes,
     extra_changes,
     mutant_changes,
+    region_changes,
     rewrite_changes,
     signals_of,
     stamp_changes,
@@ -190,6 +191,8 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
             yield from stamp_changes(board, system, only)
         case "shared" if change.at.startswith("stamp/"):
             yield from stamp_changes(board, system, only)
+        case "shared" if change.at.startswith("regions"):
+            yield from region_changes(system, only)
         case "extra":
             yield from extra_changes(system, only)
         case "initial":
