@@ -2,14 +2,12 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 
 from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction.interface import BoardInterface, Carriage, SignalView
 from rovercheck.spec_model.abstraction.readings import StampReading, StampsTaken
 from rovercheck.spec_model.abstraction.stamps import CLOCK, NOW, MeanOfTen
-from rovercheck.spec_model.lang.system import TICK_MS
 
 See = Callable[[LogBlock], Cells]
 
@@ -88,7 +86,7 @@ def _sample(sight: SignalView, _from_power_up: bool) -> See:
 
 
 def _age(sight: SignalView, _from_power_up: bool) -> See:
-    ages = _Ages()
+    ages = _Ages(sight)
 
     def see(block: LogBlock) -> Cells:
         stamps, now = block.values[sight.signal.name], block.values[NOW]
@@ -100,9 +98,11 @@ def _age(sight: SignalView, _from_power_up: bool) -> See:
 class _Ages(dict[Raw, Raw]):
     """Raw ages by the milliseconds from a stamp to the clock, which may have wrapped in between."""
 
+    def __init__(self, sight: SignalView) -> None:
+        self._sight = sight
+
     def __missing__(self, ms: Raw) -> Raw:
-        whole, rest = divmod(int(ms) % CLOCK, TICK_MS)
-        self[ms] = age = Fraction(int(ms) % CLOCK, TICK_MS) if rest else whole
+        self[ms] = age = self._sight.age(int(ms) % CLOCK, 0)
         return age
 
 

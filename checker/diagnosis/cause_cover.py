@@ -8,7 +8,7 @@ Where two changes make the same rows wrong, none of them explains a deviation al
 that makes most right, and kept if with those found on top of it nothing is wrong that was right.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -16,8 +16,8 @@ from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import ChartChange, Nearness
-from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness
-from rovercheck.checker.diagnosis.evidence import DecodedRun, PartEvidence
+from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness, ranked
+from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, wrong_of
@@ -130,13 +130,9 @@ class _CoverSearch(HypothesisSearch):
 
     def _sound(self, drawn: Sequence[Wrong]) -> bool:
         """Whether nothing is wrong that was right without any change."""
-        decided = map(self._decided, self._bench.runs)
-        three = zip(drawn, self._base, decided, strict=True)
-        return all(row in old or row >= end for old, new, end in three for row in new)
-
-    def _decided(self, run: DecodedRun) -> int:
-        """How many rows of a run the charts as drawn decide."""
-        return run.undecided.get(self._name, len(run))
+        runs = zip(drawn, self._base, self._bench.runs, strict=True)
+        decided = ((old, new, run.undecided.get(self._name, len(run))) for old, new, run in runs)
+        return all(row in old or row >= end for old, new, end in decided for row in new)
 
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
@@ -156,17 +152,18 @@ class _CoverSearch(HypothesisSearch):
     def _more_explained(self) -> bool:
         """Take what explains something, and makes nothing wrong."""
         if self._good:
-            self._take(sorted(self._good, key=lambda one: one.rank))
+            self._take(ranked(self._good, self._behind))
         return bool(self._good) or self._combined()
 
+    def _behind(self, one: CoveringChange) -> int:
+        """How many rows a change explains behind those that are decided."""
+        cone = self._cone(one.system) if self._clock() < self._end else None
+        return 0 if cone is None else self._bench.with_reading(one.change.reading).rows_behind(cone)
+
     def _begin(self, bridge: CoveringChange) -> None:
-        """Take a change that makes something wrong."""
+        """Take a change that makes something wrong, which belongs to deviations of the same outputs now."""
         before = list(self._base)
         self._accept(bridge)
-        self._belongs(before)
-
-    def _belongs(self, before: Sequence[Wrong]) -> None:
-        """What is wrong now and was not before belongs to deviations of the same outputs."""
         rows = {place: dict(own) for place, own in self._rows.items()}
         places = sorted(rows, key=lambda n: n not in self._left)
         for run, old, new in zip(self._bench.runs, before, self._base, strict=True):
@@ -252,11 +249,9 @@ class _CoverSearch(HypothesisSearch):
 
     def _go_on(self) -> None:
         """Take in the rows in which nobody could know what is right without the change taken last."""
-        before = list(self._base)
         self._bench, found = self._bench.going_on(self._evidence.group.cone(self._system))
         for number, wrong in found.items():
             self._base[number] = wrong
-        self._belongs(before)
 
     def order(self, change: ChartChange) -> Nearness:
         """Initial values first, where something differs in the first step of a run."""
@@ -300,6 +295,10 @@ class _CoverSearch(HypothesisSearch):
                 found |= set(self._bench.passing(cone, one.number, one.last, PARAMETER, values, one.masked))
         return found
 
+    def narrowed(self, cone: LogCone, value: Raw, values: Sequence[Raw]) -> Collection[Raw]:
+        """The values with which more rows are right behind those that the part as it is decides."""
+        return self._bench.narrowed(cone, PARAMETER, value, values)
+
     def judge(
         self,
         cone: LogCone,
@@ -315,9 +314,8 @@ class _CoverSearch(HypothesisSearch):
         if not passed:
             return False
         wrong = self._right(cone, parameter, concerned)
-        if (
-            wrong is not None and parameter is not None
-        ):  # the number as an input, for which there may be no room
+        if wrong is not None and parameter is not None:
+            # the number was an input, for which there may be no room
             system, real = self._made(made)
             wrong = None if real is None else self._right(real, None, concerned)
         explains = frozenset[int]() if wrong is None else self._judge.explained(concerned, self._bench, wrong)
@@ -378,8 +376,7 @@ class _CoverSearch(HypothesisSearch):
         for one in sorted(self._partly, key=lambda one: one.rank)[:MOST_PARTLY]:
             if self._clock() > self._end:
                 break
-            bridge = self._bridge(one)
-            if bridge is not None and (bridge.cases > 0 or bridge.explains):
+            if (bridge := self._bridge(one)) and (bridge.cases > 0 or bridge.explains):
                 found.append(bridge)
         return sorted(found, key=lambda one: -one.cases)
 

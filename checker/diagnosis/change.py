@@ -13,7 +13,7 @@ ChangeKind = Literal[
     "interpretation", "repair", "limit", "constant", "comparison", "timer", "bit", "member", "value",
     "target", "order", "joined", "negated", "dropped", "missing", "always", "never", "operands", "signal",
     "exchanged", "initial", "late", "stale", "held", "frozen", "unread", "shared", "stamp", "enabled",
-    "dead", "extra", "entry",
+    "dead", "extra", "entry", "rounded", "single-precision",
 ]  # fmt: skip
 
 KINDS: dict[str, str] = {
@@ -21,6 +21,8 @@ KINDS: dict[str, str] = {
     "repair": "a proposed repair",
     "limit": "another limit",
     "constant": "another constant",
+    "rounded": "in fewer digits",
+    "single-precision": "times in single precision",
     "comparison": "another comparison",
     "timer": "another time",
     "bit": "another bit",
@@ -54,7 +56,8 @@ KINDS: dict[str, str] = {
 
 TIERS: dict[str, float] = {
     "interpretation": 0, "initial": 0.9, "repair": 1, "comparison": 2, "limit": 2, "timer": 2, "constant": 3,
-    "joined": 3.1, "never": 3.15, "dropped": 3.2, "order": 3.2, "target": 3.3, "entry": 3.3, "missing": 3.4,
+    "joined": 3.1, "never": 3.15, "dropped": 3.2, "order": 3.2, "rounded": 3.5,
+    "single-precision": 3.5, "target": 3.3, "entry": 3.3, "missing": 3.4,
     "always": 3.6, "negated": 3.7, "exchanged": 4, "late": 4, "stale": 4, "shared": 5, "signal": 5.2,
     "stamp": 5, "held": 6, "unread": 6, "enabled": 6, "frozen": 7, "dead": 7, "extra": 8,
 }  # fmt: skip

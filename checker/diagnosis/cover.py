@@ -1,7 +1,7 @@
 """What explains the deviations of a part: changes, what they must get past, and what was found so far."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.program import Known
@@ -11,21 +11,28 @@ from rovercheck.checker.diagnosis.pieces import Pieces, Wrong
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.spec_model.lang.system import System
 
+ALIKE = 6
+"""Changes that explain the same of which it is asked how many rows they explain behind what is decided."""
+
 
 @dataclass(frozen=True)
 class CoveringChange:
-    """A change that contradicts nothing; all rows of what it explains are right with it, and those before."""
+    """A change that contradicts nothing; all rows of what it explains are right with it, and those before.
+
+    ``behind``: how many rows it explains that the part as it is does not decide.
+    """
 
     change: ChartChange
     explains: frozenset[int]
     cases: int
     wrong: Sequence[Wrong]
     system: System
+    behind: int = 0
 
     @property
     def rank(self) -> tuple[float, ...]:
         """The one that explains most comes first, of those the nearest."""
-        return (-len(self.explains), -self.cases, *self.change.nearness)
+        return (-len(self.explains), -self.behind, -self.cases, *self.change.nearness)
 
 
 @dataclass(frozen=True)
@@ -101,4 +108,17 @@ class PartCover:
     """Whether the time was over before all was tried."""
 
 
-__all__ = ["CoveringChange", "PartCover", "Sound", "Unexplaining", "Witness"]
+def ranked(good: Sequence[CoveringChange], behind: Callable[[CoveringChange], int]) -> list[CoveringChange]:
+    """Changes that explain something, the best first; ``behind`` is asked of some that explain the same."""
+    alike: dict[frozenset[int], list[CoveringChange]] = {}
+    for one in sorted(good, key=lambda one: one.rank):
+        alike.setdefault(one.explains, []).append(one)
+    found: list[CoveringChange] = []
+    for same in alike.values():
+        near = same[:ALIKE] if len(same) > 1 else []
+        found += (replace(one, behind=behind(one)) for one in near)
+        found += same[len(near) :]
+    return sorted(found, key=lambda one: one.rank)
+
+
+__all__ = ["CoveringChange", "PartCover", "Sound", "Unexplaining", "Witness", "ranked"]

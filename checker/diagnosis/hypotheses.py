@@ -9,9 +9,9 @@ from rovercheck.checker.mutate.delays import Delay, delays
 from rovercheck.checker.mutate.durings import other_durings
 from rovercheck.checker.mutate.functions import function_rewrites
 from rovercheck.checker.mutate.memory import shared_memory
-from rovercheck.checker.mutate.regions import BITS, RegionsInOneMemory, regions_in_one_memory
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.power_up import other_beginnings
+from rovercheck.checker.mutate.regions import BITS, RegionsInOneMemory, regions_in_one_memory
 from rovercheck.checker.mutate.rewrites import (
     ASSIGNED,
     COMPARED,
@@ -20,12 +20,13 @@ from rovercheck.checker.mutate.rewrites import (
     rewrites,
     timer_rewrites,
 )
+from rovercheck.checker.mutate.rounding import COMPUTED, rounded, with_other_age
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.board import made_of
 from rovercheck.spec_model.abstraction.boards import BOARDS, RECORDED
-from rovercheck.spec_model.abstraction.interface import Carriage
-from rovercheck.spec_model.abstraction.readings import readings_of
+from rovercheck.spec_model.abstraction.interface import Carriage, beside
+from rovercheck.spec_model.abstraction.readings import AGES, StampReading, readings_of
 from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.interpretations import Alternative, alternatives, name_of
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
@@ -74,6 +75,8 @@ def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[s
                 yield _of_rewrite(system, part, one, REWRITES[one.kind])
             for one in shared_memory(part):
                 yield _of_rewrite(system, part, one, "shared")
+            for one in rounded(part):
+                yield _of_rewrite(system, part, one, "rounded")
             for one in function_rewrites(part, system.step_ms):
                 yield _of_rewrite(system, part, one, OPERATORS.get(one.kind, "dropped"))
 
@@ -122,6 +125,7 @@ TOLD = {
     "order": "{old} is tested {new}",
     "timer": "a time of {new} instead of {old}",
     "shared": "{old} and {new} share one memory",
+    "rounded": "{old} in {new}",
     "extra": "there is an extra transition, {new}",
     "entry": "{new} from {old} is tested in the step in which it is entered, too",
 }
@@ -132,7 +136,15 @@ def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeK
     if one.kind in ("members", "bits", "only", "and-or", "also"):
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
-    if kind != "entry" and one.site not in ("everywhere", "memory", "buffers", "arrays", COMPARED, ASSIGNED):
+    if kind != "entry" and one.site not in (
+        "everywhere",
+        "memory",
+        "buffers",
+        "arrays",
+        COMPARED,
+        ASSIGNED,
+        COMPUTED,
+    ):
         text += f", {place_text(one.site)}"
     make = partial(_with_part, system, part, one)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)
@@ -221,6 +233,34 @@ def stamp_changes(board: Board, system: System, only: frozenset[str]) -> Iterato
                     yield ChartChange(
                         "shared" if one.other else "stamp", part.name, f"stamp/{one.stamp}", "as it is given",
                         one.how, one.text, lambda: system, number / 1e3, reading=one, inputs=inputs,
+                    )  # fmt: skip
+
+
+def other_ages(board: Board) -> Iterator[Var]:
+    """The variables for ages that are held otherwise."""
+    for view in board.interface.by_carriage[Carriage.AGE]:
+        yield from (
+            beside(view.var, StampReading(view.signal.name, how)) for how in AGES if view.taken is None
+        )
+
+
+def age_changes(board: Board, system: System, only: frozenset[str]) -> Iterator[ChartChange]:
+    """An age that a part computes with, held in single precision; or also where it is compared alone."""
+    ages = {v.var.name: v for v in board.interface.by_carriage[Carriage.AGE] if v.taken is None}
+    for part in parts(system.components):
+        for view in (ages[name] for name in part.read if name in ages) if part.name in only else ():
+            for number, how in enumerate(AGES):
+                reading = StampReading(view.signal.name, how)
+                for alone in (False, True):
+                    age = view.var.name
+                    changed = partial(with_other_age, part, view.var, beside(view.var, reading), alone)
+                    site = f"signal/{age}/compared" if alone else f"signal/{age}"
+                    rewrite = Rewrite("single-precision", site, age, how, changed)
+                    text = reading.text + (", also where it is only compared" if alone else "")
+                    make = partial(_with_part, system, part, rewrite)
+                    yield ChartChange(
+                        "single-precision", part.name, site, age, how, text, make, number + 0.5 * alone,
+                        reading=reading,
                     )  # fmt: skip
 
 
@@ -323,6 +363,7 @@ def _altered(one: Alternative, part: Component) -> tuple[Component, ...]:
 
 
 __all__ = [
-    "beginning_changes", "delay_changes", "during_changes", "extra_changes", "mutant_changes",
-    "region_changes", "rewrite_changes", "signals_of", "stamp_changes", "timer_changes", "written_changes",
+    "age_changes", "beginning_changes", "delay_changes", "during_changes", "extra_changes", "mutant_changes",
+    "other_ages", "region_changes", "rewrite_changes", "signals_of", "stamp_changes", "timer_changes",
+    "written_changes",
 ]  # fmt: skip

@@ -272,7 +272,10 @@ def simplest(low: Fraction, high: Fraction, closed_low: bool, closed_high: bool)
 
 
 class MetValues:
-    """The values that formulas had in the recordings: all of them, and those shortly before a case."""
+    """The values that formulas had in the recordings: all of them, and those shortly before a case.
+
+    And those behind the rows that the drawn part decides.
+    """
 
     def __init__(self, evidence: PartEvidence) -> None:
         self._evidence = evidence
@@ -308,6 +311,9 @@ class MetValues:
             every.update(v for v in values if v is not None)
             for case in run.cases(self._evidence.name):
                 window = values[max(0, case.first - BEFORE) : case.first + 1][::-1]
+                cases.append(list(dict.fromkeys(v for v in window if v is not None))[:MOST_MET])
+            if (lost := run.undecided.get(self._evidence.name)) is not None:
+                window = values[lost : lost + BEFORE]
                 cases.append(list(dict.fromkeys(v for v in window if v is not None))[:MOST_MET])
         for rank in range(max(map(len, cases), default=0)):
             recent.update((case[rank], None) for case in cases if rank < len(case))

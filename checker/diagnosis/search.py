@@ -14,11 +14,13 @@ from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import TIERS, ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
+    age_changes,
     beginning_changes,
     delay_changes,
     during_changes,
     extra_changes,
     mutant_changes,
+    other_ages,
     region_changes,
     rewrite_changes,
     signals_of,
@@ -98,6 +100,7 @@ class HypothesisSearch(ABC):
         self._met = MetValues(evidence)
         self._outputs = len(evidence.cone.outputs)
         self._known = {PARAMETER, *(v.name for v in evidence.cone.system.inputs), *self._signals()}
+        self._known |= {v.name for v in other_ages(evidence.group.board)}
         self.tried = self.of = 0
         self.late = False
         """Whether the time was over before all was tried."""
@@ -175,6 +178,7 @@ class HypothesisSearch(ABC):
         outputs = frozenset(o.var.name for o in self._evidence.cone.outputs)
         found += delay_changes(system, only, outputs)
         found += stamp_changes(self._board, system, only)
+        found += age_changes(self._board, system, only)
         return found
 
     @property
@@ -250,7 +254,10 @@ class HypothesisSearch(ABC):
                 if cone is None or (op, raw) not in possible:
                     continue
                 if self.judge(cone, made, None, (PARAMETER, value)):
-                    explained += 1
+                    others = [whole(other) for same, other in possible if same is op]
+                    better = self.narrowed(cone, value, others)
+                    possible -= {one for one in possible if one[0] is op and whole(one[1]) not in better}
+                    explained += value in better
                 if explained >= 2:  # of one limit the two simplest say enough
                     self.of -= len(values) - tried
                     break
@@ -272,6 +279,10 @@ class HypothesisSearch(ABC):
 
     def passing(self, cone: LogCone, change: ChartChange, values: Sequence[Raw]) -> Collection[Raw]:
         """Those of the values of the parameter of a part that need to be judged."""
+        return values
+
+    def narrowed(self, cone: LogCone, value: Raw, values: Sequence[Raw]) -> Collection[Raw]:
+        """Those of the values of the parameter of a part that may explain more than one does; or all."""
         return values
 
     def _opened(self, slot: NumberSlot, op: Op | None) -> LogCone | None:
@@ -323,9 +334,10 @@ class _SingleChanges(HypothesisSearch):
             if self._bench.rejected(cone, parameter) is not None:
                 return False
             trial = self._bench.trial(cone, parameter)
+            _, behind = self._bench.going_on(cone, parameter)
         except NO_VALUE:
             return False
-        if not trial.full:
+        if not trial.full or any(behind.values()):
             return False
         made = change()
         if parameter is not None and self._cone(system if system is not None else made.make()) is None:

@@ -19,25 +19,25 @@ from rovercheck.checker.diagnosis.evidence import (
     taken_otherwise,
 )
 from rovercheck.checker.diagnosis.pieces import Wrong, differing
+from rovercheck.checker.diagnosis.values_together import (
+    MOST_STATES,
+    NO_VALUE,
+    Rows,
+    TooManyStates,
+    ValuesTogether,
+    place_of,
+    with_parameter,
+)
 from rovercheck.spec_model.abstraction.readings import StampReading
 
 FEW_VARIABLES = 8
 """Up to as many a part is in few states, and its steps are remembered while a run is followed."""
-
-NO_VALUE = (TypeError, ValueError, ZeroDivisionError)
-"""What a step raises with numbers that have no meaning: bits of a fraction or of -1, a division by 0."""
-
-MOST_STATES = 64
-"""States that are followed side by side before the tracker takes over."""
 
 Parameter = tuple[str, Raw]
 """An input that always has one value: a limit that is tried."""
 
 NOTHING: Mapping[int, Known] = {}
 ALL: Mapping[int, int] = {}
-
-Rows = Sequence[tuple[tuple[Known, ...], Known]]
-"""Of each row every combination of inputs that the part may have seen, and its outputs."""
 
 
 @dataclass(frozen=True)
@@ -58,8 +58,8 @@ class Trial:
 class TrialBench:
     """Tries changes of one part; the rows are prepared once for all that read the same.
 
-    ``readings``: stamps that are taken otherwise than the board does.  ``ends``: how many rows of a run count,
-    by its number, where that is not as many as the charts as drawn decide.
+    ``readings``: stamps that are taken otherwise than the board does.  ``ends``: how many rows of a run
+    count, by its number, where that is not as many as the charts as drawn decide.
     """
 
     def __init__(
@@ -83,7 +83,9 @@ class TrialBench:
             return self
         return TrialBench(self.evidence, (*self.readings, reading), self.ends)
 
-    def going_on(self, cone: LogCone) -> tuple["TrialBench", dict[int, Wrong]]:
+    def going_on(
+        self, cone: LogCone, parameter: Parameter | None = None
+    ) -> tuple["TrialBench", dict[int, Wrong]]:
         """The same with all rows that a changed part decides of runs that the drawn one does not decide.
 
         And, by their numbers, what it gets wrong in these runs.
@@ -93,7 +95,7 @@ class TrialBench:
         ends, found = dict(self.ends), dict[int, Wrong]()
         for number, end in every.items():
             wrong: dict[int, frozenset[tuple[str, int]]] = {}
-            for row, mismatch in whole.mismatches(cone, number):
+            for row, mismatch in whole.mismatches(cone, number, parameter):
                 if mismatch is None:
                     end = row
                     break
@@ -101,6 +103,22 @@ class TrialBench:
             if end > self._end(number):
                 ends[number], found[number] = end, wrong
         return TrialBench(self.evidence, self.readings, ends), found
+
+    def rows_behind(self, cone: LogCone) -> int:
+        """How many more rows a changed part explains in runs that the drawn one does not decide."""
+        bench, wrong = self.going_on(cone)
+        return sum(min(rows, default=bench.ends[n]) - self._end(n) for n, rows in _behind(self, wrong))
+
+    def narrowed(self, cone: LogCone, name: str, value: Raw, values: Sequence[Raw]) -> Sequence[Raw]:
+        """Those of some values of an input with which rows are right that one value gets wrong there.
+
+        All of them, if no value does better.
+        """
+        bench, wrong = self.going_on(cone, (name, value))
+        for number, rows in _behind(self, wrong):
+            if first := min(rows, default=0):
+                values = bench.passing(cone, number, first, name, values) or values
+        return values
 
     def _end(self, number: int) -> int:
         run = self.runs[number]
@@ -170,7 +188,7 @@ class TrialBench:
                 try:
                     rows = self._prepared(cone)
                     return self._followed(cone, step, number, rows, None, NOTHING) is None
-                except (NeededInputs, _TooManyStates):
+                except (NeededInputs, TooManyStates):
                     pass
             found = next(self.mismatches(cone, number, parameter), None)
         except NO_VALUE:
@@ -190,13 +208,13 @@ class TrialBench:
 
         Neighbours that lead to the same states are followed together, and so are all values between them.
         """
-        run, place = self.runs[number], _place(cone, name)
+        run, place = self.runs[number], place_of(cone, name)
         if place is None or not run.run.from_power_up or any(run.missing):
             return [v for v in values if self.passes(cone, number, last, (name, v), masked)]
         rows = self._of(cone, number, self._prepared(cone))[: last + 1]
         try:
-            return _ValuesTogether(cone, run, place).passing(rows, masked, sorted(values))
-        except (NeededInputs, _TooManyStates):
+            return ValuesTogether(cone, run, place).passing(rows, masked, sorted(values))
+        except (NeededInputs, TooManyStates):
             return [v for v in values if self.passes(cone, number, last, (name, v), masked)]
 
     # --- rows ---
@@ -247,7 +265,7 @@ class TrialBench:
         if run.run.from_power_up and not any(run.missing):
             try:
                 return self._followed(cone, step, number, rows, last, masked)
-            except (NeededInputs, _TooManyStates):
+            except (NeededInputs, TooManyStates):
                 pass
         return next(self._tracked(cone, number, parameter), None)
 
@@ -283,7 +301,7 @@ class TrialBench:
             if not states:
                 return at
             if len(states) > MOST_STATES:
-                raise _TooManyStates
+                raise TooManyStates
         return None
 
     def _tracked(self, cone: LogCone, number: int, parameter: Parameter | None) -> Iterator[int]:
@@ -304,8 +322,8 @@ class TrialBench:
         """
         run = self.runs[number]
         tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up, tells_inputs=False)
-        place = None if parameter is None else _place(cone, parameter[0])
-        free = _place(cone, unknown[0])
+        place = None if parameter is None else place_of(cone, parameter[0])
+        free = place_of(cone, unknown[0])
         rows = self._of(cone, number, self._prepared(cone))
         begin = 0 if free is not None else _explained(tracker, run, rows, place, parameter)
         for at in range(begin, len(rows)):
@@ -351,68 +369,10 @@ def _explained(
     return taken
 
 
-_Together = tuple[tuple[Known, ...], Sequence[Raw]]
-"""The states that a part may be in with each of some values of an input."""
-
-
-class _ValuesTogether:
-    """Follows a run with many values of one input, which is at ``place``."""
-
-    def __init__(self, cone: LogCone, run: DecodedRun, place: int) -> None:
-        estimator = StateEstimator(cone, run.run.tolerance)
-        self._step, self._place = cone.step, place
-        self._agrees, self._power_up = estimator.agrees, estimator.power_up()
-
-    def passing(self, rows: Rows, masked: Mapping[int, Known], values: Sequence[Raw]) -> list[Raw]:
-        """Those that explain all rows."""
-        groups: list[_Together] = [(self._power_up, values)] if values else []
-        for at, (options, logged) in enumerate(rows):
-            wanted = masked.get(at, logged)
-            groups = [after for group in groups for after in self._after(group, options, wanted)]
-        return [value for _, some in groups for value in some]
-
-    def _after(self, group: _Together, options: Sequence[Known], logged: Known) -> list[_Together]:
-        before, values = group
-        first = self._one(before, options, logged, values[0])
-        if len(values) == 1 or self._one(before, options, logged, values[-1]) == first:
-            return [(first, values)] if first else []
-        middle = len(values) // 2
-        halves = (before, values[:middle]), (before, values[middle:])
-        return [after for half in halves for after in self._after(half, options, logged)]
-
-    def _one(
-        self, before: Sequence[Known], options: Sequence[Known], logged: Known, value: Raw
-    ) -> tuple[Known, ...]:
-        """The states after a row with one value; none if the value explains no outputs of the row."""
-        place = self._place
-        try:
-            found = [
-                self._step(state, (*given[:place], value, *given[place + 1 :]))
-                for given in options
-                for state in before
-            ]
-        except NO_VALUE:
-            return ()
-        states = tuple(dict.fromkeys(s for s, out in found if self._agrees(out, logged)))
-        if len(states) > MOST_STATES:
-            raise _TooManyStates
-        return states
-
-
-class _TooManyStates(Exception):
-    """More states than are followed side by side."""
-
-
-def with_parameter(cone: LogCone, name: str, value: Raw) -> Step:
-    """The step of a part in which an input always has one value, whatever it is given."""
-    place, step = _place(cone, name), cone.step
-    if place is None:
-        return step
-    return lambda state, given: step(state, (*given[:place], value, *given[place + 1 :]))
-
-
-def _place(cone: LogCone, name: str) -> int | None:
-    return next((i for i, v in enumerate(cone.system.inputs) if v.name == name), None)
+def _behind(bench: TrialBench, wrong: Mapping[int, Wrong]) -> Iterator[tuple[int, list[int]]]:
+    """Of runs by their numbers the rows that are wrong behind those that are decided."""
+    for number, rows in wrong.items():
+        yield number, [row for row in rows if row >= bench._end(number)]
 
 
 __all__ = ["NO_VALUE", "Parameter", "Trial", "TrialBench", "with_parameter"]

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from rovercheck.checker.diagnosis.change import KINDS, ChartChange
 from rovercheck.checker.diagnosis.hypotheses import (
+    age_changes,
     beginning_changes,
     delay_changes,
     during_changes,
@@ -187,6 +188,8 @@ def _all_like(board: Board, system: System, change: WrittenChange) -> Iterator[C
             yield from written_changes(board, system)
         case "late" | "stale" | "held" | "frozen" | "unread":
             yield from delay_changes(system, only)
+        case "single-precision":
+            yield from age_changes(board, system, only)
         case "stamp":
             yield from stamp_changes(board, system, only)
         case "shared" if change.at.startswith("stamp/"):

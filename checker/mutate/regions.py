@@ -1,7 +1,7 @@
 """Two regions of a chart in one memory: active state, times and data.
 
-So is firmware in which two instances of one structure are one: each region is executed in its turn, and goes on
-from where the other has left off.
+So is firmware in which two instances of one structure are one: each region is executed in its turn, and goes
+on from where the other has left off.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -32,10 +32,10 @@ BITS = 32
 class RegionsInOneMemory:
     """Two regions of a chart that are alike but for numbers and for the data that they read and write.
 
-    ``data``: what they write, in pairs.  ``since``: of these pairs the numbers to which a block adds and which a
-    region sets to 0: what has gone by since then, of one clock for each region.  In one memory that is the same
-    moment for both, so that what has gone by may be negative; ``bits``: in how many bits it is kept then, 0: in
-    all that it needs.
+    ``data``: what they write, in pairs.  ``since``: of these pairs the numbers to which a block adds and that
+    a region sets to 0: what has gone by since then, of one clock for each region.  In one memory that is the
+    same moment for both, so that what has gone by may be negative; ``bits``: in how many bits it is kept
+    then, 0: in all that it needs.
     """
 
     chart: Chart
@@ -74,7 +74,9 @@ class RegionsInOneMemory:
         do: list[Statement] = []
         for flow, own in zip(flows, zip(*self.data.values(), strict=True), strict=True):
             do += unguarded(tuple(flow.step()))
-            do += [Assign(var, memory[one.name]) for var, (one, _) in zip(own, self.data.values(), strict=True)]
+            do += [
+                Assign(var, memory[one.name]) for var, (one, _) in zip(own, self.data.values(), strict=True)
+            ]
         text = f"Regions {self.first.name} and {self.second.name} in one memory."
         return _with_own_places(Block(name, do, text=text, place=self.chart.place), flows[0].chart)
 
@@ -122,7 +124,11 @@ def regions_in_one_memory(system: System) -> Iterator[RegionsInOneMemory]:
     every = list(parts(system.components))
     for chart in every:
         if isinstance(chart, Chart) and chart.root.parallel and not chart.local_to and not _sends(chart):
-            blocks = [part for part in every if part is not chart and not part.written.keys().isdisjoint(chart.written)]
+            blocks = [
+                part
+                for part in every
+                if part is not chart and not part.written.keys().isdisjoint(chart.written)
+            ]
             for first, second in combinations(chart.root.states, 2):
                 found = _alike(chart, first, second, blocks)
                 if found is not None:
@@ -131,7 +137,9 @@ def regions_in_one_memory(system: System) -> Iterator[RegionsInOneMemory]:
                         yield replace(found, bits=BITS)
 
 
-def _alike(chart: Chart, first: State, second: State, others: Sequence[Chart | Block]) -> RegionsInOneMemory | None:
+def _alike(
+    chart: Chart, first: State, second: State, others: Sequence[Chart | Block]
+) -> RegionsInOneMemory | None:
     if any(s.parallel or not s.states or _own(s) for s in (first, second)):
         return None
     one, two = list(_content(first)), list(_content(second))
@@ -149,8 +157,14 @@ def _alike(chart: Chart, first: State, second: State, others: Sequence[Chart | B
     pairs = {name: (vars_[name], instead[name]) for name in instead if name in written[0]}
     if not pairs or not all(_one_memory(one, two) for one, two in pairs.values()):
         return None
-    since = {n: pair for n, pair in pairs.items() if any(v.name in part.written for v in pair for part in others)}
-    if not all(_gone_by(var, state, others) for pair in since.values() for var, state in zip(pair, (first, second), strict=True)):
+    since = {
+        n: pair for n, pair in pairs.items() if any(v.name in part.written for v in pair for part in others)
+    }
+    if not all(
+        _gone_by(var, state, others)
+        for pair in since.values()
+        for var, state in zip(pair, (first, second), strict=True)
+    ):
         return None
     data = {name: pair for name, pair in pairs.items() if name not in since}
     return RegionsInOneMemory(chart, first, second, data, since)
@@ -291,7 +305,9 @@ def _with_own_places(block: Block, chart: Chart) -> Block:
     sorts = {place.sort: places[place.name].sort for place in chart.locations}
 
     def constant(node: Expr) -> Expr:
-        return replace(node, sort=sorts[node.sort]) if isinstance(node, Const) and node.sort in sorts else node
+        return (
+            replace(node, sort=sorts[node.sort]) if isinstance(node, Const) and node.sort in sorts else node
+        )
 
     changed = mapped(with_memory(block, places), constant)
     assert isinstance(changed, Block)

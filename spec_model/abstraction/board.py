@@ -85,6 +85,9 @@ def made_of(board: Board, reading: StampReading) -> tuple[str, ...]:
 
     Those are what tells of the means, too, of all stamps that go into one record with it.
     """
+    if reading.of_age:
+        views = with_readings(board, [reading]).interface.views
+        return tuple(v.var.name for v in views if v.taken == reading)
     shared = [{one.stamp, one.other} for one in (*board.interface.taken, reading) if one.other]
     together = set[str]().union(*(pair for pair in shared if reading.stamp in pair))
     stamps = () if reading.other else (reading.stamp,)

@@ -9,8 +9,17 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 
-from rovercheck.spec_model.abstraction.readings import StampReading, StampsTaken
-from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Value, Values, computed, units
+from rovercheck.spec_model.abstraction.readings import AGES, StampReading, StampsTaken
+from rovercheck.spec_model.abstraction.signals import (
+    BoardSignal,
+    Output,
+    Raw,
+    Value,
+    Values,
+    computed,
+    units,
+    whole,
+)
 from rovercheck.spec_model.abstraction.stamps import NOW, MeanOfTen, Stamp, Updates, age, since
 from rovercheck.spec_model.environment.jitter import step_ms
 from rovercheck.spec_model.lang.expr import Var
@@ -112,12 +121,19 @@ def produced(outputs: Iterator[Output] | tuple[Output, ...], **places: str) -> t
 
 @dataclass(frozen=True)
 class SignalView:
-    """What the charts see of one signal in one way."""
+    """What the charts see of one signal in one way; ``taken``: how an age is held, if not as it is."""
 
     var: Var
     how: Carriage
     signal: BoardSignal
     mean_ms: int = 0
+    taken: StampReading | None = None
+
+    def age(self, now_ms: int, then_ms: int) -> Raw:
+        """The raw age of the stamp."""
+        if self.taken is None:
+            return age(now_ms, then_ms)
+        return whole(self.taken.age(since(now_ms, then_ms)) / TICK_MS)
 
 
 @dataclass(frozen=True)
@@ -134,13 +150,12 @@ class BoardInterface:
     @cached_property
     def views(self) -> tuple[SignalView, ...]:
         """All that the charts see: samples, then what is seen of the stamps, one way after the other."""
-        every = [(c, row.signal) for row in self.inputs for c in row.carried]
-        return tuple(
-            SignalView(c.var, c.how, signal, c.mean_ms)
-            for how in Carriage
-            for c, signal in every
-            if c.how is how
-        )
+        every = [SignalView(c.var, c.how, row.signal, c.mean_ms) for row in self.inputs for c in row.carried]
+        for one in self.taken:
+            if one.of_age:
+                own = [v for v in every if v.signal.name == one.stamp and v.how is Carriage.AGE]
+                every += [replace(v, var=beside(v.var, one), taken=one) for v in own if v.taken is None]
+        return tuple(v for how in Carriage for v in every if v.how is how)
 
     @cached_property
     def by_carriage(self) -> Mapping[Carriage, tuple[SignalView, ...]]:
@@ -184,6 +199,12 @@ class BoardInterface:
         return inputs, {r.output.name: r.place for r in self.outputs}
 
 
+def beside(age: Var, reading: StampReading) -> Var:
+    """The variable for an age as another way holds it, beside the age itself."""
+    number = list(AGES).index(reading.how) + 1
+    return replace(age, name=f"{age.name}.single{number}", doc=f"{age.doc}, in single precision")
+
+
 class InterfaceReader:
     """Ages, updates, gaps and means in place of stamps, and the measurements as they are.
 
@@ -205,7 +226,7 @@ class InterfaceReader:
             inputs = {**inputs, **self._taken.step({name: int(inputs[name]) for name in names}, now)}
         at = {v.var.name: v.signal.raw(inputs[v.signal.name]) for v in by[Carriage.SAMPLE]}
         for v in by[Carriage.AGE]:
-            at[v.var.name] = age(now, int(inputs[v.signal.name]))
+            at[v.var.name] = v.age(now, int(inputs[v.signal.name]))
         for v in by[Carriage.ADVANCE]:
             latest = int(inputs[v.signal.name])
             before = self._advances[v.var.name].step(latest)

@@ -1,14 +1,20 @@
 """Other ways to take a time stamp: in fewer bits, a step late, every other one, two in one record.
 
+And to hold its age: as a sum of steps in single precision.
+
 A task that calls a supervisor hands stamps over; where it does so otherwise, the charts are as they were, and
 see other ages, updates and means.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
+from struct import pack, unpack
+from typing import cast
 
 from rovercheck.spec_model.abstraction.stamps import CLOCK, since
+from rovercheck.spec_model.lang.system import TICK_MS
 
 Take = Callable[[int, int], int]
 """The stamp that is taken, of the one given and the time of the step; called once in every step."""
@@ -21,7 +27,7 @@ TOGETHER: Mapping[str, int] = {
 
 @dataclass(frozen=True)
 class StampReading:
-    """How one stamp is taken: one of ``READINGS``, or into the record of intervals of another stamp."""
+    """How one stamp is taken: one of ``READINGS`` or ``AGES``, or into the record of intervals of another."""
 
     stamp: str
     how: str
@@ -32,7 +38,16 @@ class StampReading:
         if self.other:
             bits = f", added up in {self.bits} bits" if self.bits else ""
             return f"the intervals of {self.other} and {self.stamp} went into one record{bits}"
-        return READINGS[self.how][0].format(self.stamp)
+        return (AGES if self.of_age else READINGS)[self.how][0].format(self.stamp)
+
+    @property
+    def of_age(self) -> bool:
+        """Whether the stamp is as it was, and beside its age there is another one."""
+        return self.how in AGES
+
+    def age(self, ms: int) -> Fraction:
+        """The milliseconds that an age is taken for."""
+        return AGES[self.how][1](ms)
 
     @property
     def other(self) -> str:
@@ -53,7 +68,7 @@ class StampsTaken:
     """Stamps as some readings take them, step by step from power-up."""
 
     def __init__(self, readings: Sequence[StampReading]) -> None:
-        self._takes = [(one.stamp, one.start()) for one in readings if not one.other]
+        self._takes = [(one.stamp, one.start()) for one in readings if one.how in READINGS]
 
     @property
     def names(self) -> list[str]:
@@ -156,3 +171,54 @@ READINGS: Mapping[str, tuple[str, Callable[[], Take]]] = {
     "never": ("{} were not read: always 0", lambda: lambda _stamp, _now: 0),
 }  # fmt: skip
 """What is said of each way to take a stamp, and how it is done; the nearest first."""
+
+
+class _AddedUp:
+    """An age as a sum of the seconds of a step, each time rounded to single precision."""
+
+    def __init__(self, step_s: float) -> None:
+        self._step_s = step_s
+        self._sums = [0.0]
+
+    def __call__(self, ms: int) -> Fraction:
+        steps = min(ms // TICK_MS, MOST_STEPS)
+        while len(self._sums) <= steps:
+            self._sums.append(_single(self._sums[-1] + self._step_s))
+        return Fraction(self._sums[steps]) * 1000
+
+
+class _AddedToRest:
+    """The same from the milliseconds on that are no whole step."""
+
+    def __init__(self, step_s: float) -> None:
+        self._step_s = step_s
+        self._of_rest: dict[int, list[float]] = {}
+
+    def __call__(self, ms: int) -> Fraction:
+        steps, rest = min(ms // TICK_MS, MOST_STEPS), ms % TICK_MS
+        sums = self._of_rest.setdefault(rest, [_single(rest * _single(0.001))])
+        while len(sums) <= steps:
+            sums.append(_single(sums[-1] + self._step_s))
+        return Fraction(sums[steps]) * 1000
+
+
+def _single(number: float) -> float:
+    """The number of 32 bits that is nearest."""
+    return cast(float, unpack("f", pack("f", number))[0])
+
+
+MOST_STEPS = 100_000
+"""Steps of an age that are added up, 33 minutes; an older one is not looked at more closely."""
+
+_EXACT, _SINGLE = TICK_MS / 1000, _single(TICK_MS / 1000)
+
+AGES: Mapping[str, tuple[str, Callable[[int], Fraction]]] = {
+    "added up in single precision":
+        ("the age of {} were a sum of steps of 0.02 s in single precision", _AddedUp(_SINGLE)),
+    "added up in single precision, the step in double":
+        ("the age of {} were a sum in single precision of steps of 0.02 s in double", _AddedUp(_EXACT)),
+    "added up in single precision, after the rest":
+        ("the age of {} were what is no whole step and a sum of steps of 0.02 s, in single precision",
+         _AddedToRest(_SINGLE)),
+}  # fmt: skip
+"""The same of each way to hold an age, in which a formula reads it."""

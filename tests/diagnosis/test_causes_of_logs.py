@@ -17,6 +17,7 @@ from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.checker.diagnosis.part_causes import DeviationCause, PartChanges, SearchedPart
 from rovercheck.checker.diagnosis.row_judge import OPEN, RowJudge
 from rovercheck.checker.diagnosis.trial import TrialBench
+from rovercheck.checker.diagnosis.values_together import TooManyStates
 from rovercheck.spec_model.abstraction import boards
 from tests.diagnosis.planted import LostTracker, inputs, recorded
 
@@ -72,7 +73,7 @@ def test_a_run_that_cannot_be_followed_is_neither_right_nor_wrong(monkeypatch: p
 
 
 def _too_many(*_: object) -> int | None:
-    raise trial._TooManyStates
+    raise TooManyStates
 
 
 def test_what_a_formula_counts_are_no_numbers_to_try() -> None:
