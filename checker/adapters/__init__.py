@@ -2,14 +2,16 @@
 
 They are discovered automatically: every module of this folder that has a ``start``.
 
-An adapter has a ``KIND``, the ``FORM`` of its addresses, a one-line ``SUMMARY`` and a function ``start`` with
-the signature of ``Adapter.start``.  What an implementation does, it does in a process that can be killed.
+An adapter has a ``KIND``, the ``FORM`` of its addresses, a one-line ``SUMMARY`` and the functions of
+``Adapter``: ``start``, and ``carried`` and ``moved``, by which an implementation is started elsewhere.
+What an implementation does, it does in a process that can be killed.
 """
 
 import importlib
 import pkgutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
@@ -52,6 +54,17 @@ class Adapter(Protocol):
         """
         ...
 
+    def carried(self, what: str) -> tuple[Path, ...]:
+        """The files and folders that an address means, to be sent to another machine.
+
+        Raises ``ImplementationError`` where it can only be started here.
+        """
+        ...
+
+    def moved(self, what: str, there: Callable[[Path], Path]) -> str:
+        """The address of the same implementation, the files of which are elsewhere."""
+        ...
+
 
 def adapters() -> dict[str, Adapter]:
     """The adapters in this folder, by kind."""
@@ -68,13 +81,30 @@ def start(address: str, board: "Board", limits: AdapterLimits = LIMITS) -> Imple
 
     Raises ``ImplementationError`` for an address without meaning and for one that cannot be started.
     """
+    adapter, what = _found(address)
+    return adapter.start(what, board, limits)
+
+
+def carried(address: str) -> tuple[Path, ...]:
+    """The files of an implementation.  Raises ``ImplementationError`` where it can only be started here."""
+    adapter, what = _found(address)
+    return adapter.carried(what)
+
+
+def moved(address: str, there: Callable[[Path], Path]) -> str:
+    """The address of an implementation, the files of which are elsewhere.  Raises ``ImplementationError``."""
+    adapter, what = _found(address)
+    return f"{adapter.KIND}:{adapter.moved(what, there)}"
+
+
+def _found(address: str) -> tuple[Adapter, str]:
     kind, colon, what = address.partition(":")
     known = adapters()
     if not colon or kind not in known or not what:
         forms = "\n".join(f"  {adapter.FORM:<30} {adapter.SUMMARY}" for adapter in known.values())
         hint = f" {did_you_mean(kind, known)}" if colon and kind not in known else ""
         raise ImplementationError(f"{address!r} names no implementation.{hint} Write one of\n{forms}")
-    return known[kind].start(what, board, limits)
+    return known[kind], what
 
 
-__all__ = ["LIMITS", "Adapter", "AdapterLimits", "adapters", "start"]
+__all__ = ["LIMITS", "Adapter", "AdapterLimits", "adapters", "carried", "moved", "start"]

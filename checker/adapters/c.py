@@ -1,6 +1,7 @@
 """Runs a supervisor in C, as sources or as a shared object: ``c:PATH``, ``c:PATH,map=FILE``."""
 
 import tempfile
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -43,6 +44,17 @@ def sources_and_map(what: str) -> tuple[Path, Path]:
     written, _, file = what.partition(",map=")
     path = Path(written)
     return path, Path(file) if file else _beside(path)
+
+
+def carried(what: str) -> tuple[Path, ...]:
+    """The sources or the shared object, and the mapping file."""
+    return sources_and_map(what)
+
+
+def moved(what: str, there: Callable[[Path], Path]) -> str:
+    """The address of sources and a mapping file that are elsewhere."""
+    path, file = sources_and_map(what)
+    return f"{there(path)},map={there(file)}"
 
 
 class CompiledC(Process):

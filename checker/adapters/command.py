@@ -2,7 +2,9 @@
 
 import shlex
 import shutil
+from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.adapters import LIMITS, AdapterLimits
@@ -31,3 +33,15 @@ def start(what: str, board: "Board", limits: AdapterLimits = LIMITS) -> Implemen
             f"{address}: there is no program {command[0]!r} to run; write its path or a name on PATH."
         )
     return Process(address, partial(theirs, command, limits), [o.name for o in board.outputs], limits)
+
+
+def carried(what: str) -> tuple[Path, ...]:
+    """Raises ``ImplementationError``: nobody knows what the program is made of."""
+    raise ImplementationError(
+        f"{KIND}:{what} is a program of this machine; leave it out, or use --jobs for several of it here."
+    )
+
+
+def moved(what: str, there: Callable[[Path], Path]) -> str:
+    """As it is: the program is not sent."""
+    return what

@@ -1,8 +1,9 @@
 """Runs a Python class: ``python:MODULE:CLASS``, or ``python:FILE.py:CLASS``."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.adapters import LIMITS, AdapterLimits, python_calls
@@ -34,6 +35,18 @@ def start(
         ours, python_calls.__name__, {"target": what, "inputs": inputs, "outputs": outputs}, limits
     )
     return Process(address, connect, names, limits)
+
+
+def carried(what: str) -> tuple[Path, ...]:
+    """The file of the class; none for a module, which is installed wherever it runs."""
+    module, _, _ = what.rpartition(":")
+    return (Path(module),) if module.endswith(".py") else ()
+
+
+def moved(what: str, there: Callable[[Path], Path]) -> str:
+    """The address of a class in a file that is elsewhere."""
+    module, _, name = what.rpartition(":")
+    return f"{there(Path(module))}:{name}" if module.endswith(".py") else what
 
 
 class InProcess:

@@ -26,6 +26,7 @@ from rovercheck.checker.compare.search import (
     CI,
     CompareEffort,
     CompareSearch,
+    Elsewhere,
     KnownChanges,
     Leading,
     Progress,
@@ -148,14 +149,15 @@ def cross_check(
     deviating: Callable[[RecordedRun], None] = lambda run: None,
     leading: Leading = lambda found, runs: found,
     known: KnownChanges | None = None,
+    elsewhere: Elsewhere | None = None,
 ) -> CompareResult:
     """Compare an implementation with the charts of ``board1`` or ``board2``, changed ones or a model's.
 
     ``effort`` is how many runs are drawn, from which seed; ``folder`` holds further tests; ``allowance``
     says what is spent on mismatches; ``watched``: whether the result says what was put to the test;
     ``deviating`` is given each run in which the implementation differs, to its end; ``leading`` says which
-    deviations are told in full; ``known``: the changes that explain what is known.  Of changed charts kept
-    runs are inputs only: what they require is computed anew.
+    deviations are told in full; ``known``: the changes that explain what is known; ``elsewhere`` tries the
+    random runs.  Of changed charts kept runs are inputs only: what they require is computed anew.
     """
     env = ENVIRONMENTS[board] if isinstance(board, str) else environment(board)
     search = CompareSearch(
@@ -168,6 +170,7 @@ def cross_check(
         deviating=deviating,
         leading=leading,
         known=known,
+        elsewhere=elsewhere,
     )
     return search.run(_known(env, folder))
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cache
 
 from rovercheck.checker.compare.aims import aims
-from rovercheck.checker.compare.beside import ComparedStep
+from rovercheck.checker.compare.tried_runs import RunCoverage
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.chart import Chart, Path, Transition
 from rovercheck.spec_model.lang.expr import Const
@@ -89,16 +89,13 @@ class TransitionCoverage:
     _fired: set[FiredTransition] = field(default_factory=set)
     _values: dict[str, set[float]] = field(default_factory=dict)
 
-    def add(self, steps: list[ComparedStep]) -> None:
+    def add(self, run: RunCoverage) -> None:
         """A run."""
         self.runs += 1
-        self.steps += len(steps)
-        for step in steps:
-            self._fired.update(step.fired)
-        for signal in self.board.inputs:
-            if not signal.stamp:
-                name = signal.name
-                self._values.setdefault(name, set()).update({step.inputs[name] for step in steps})
+        self.steps += run.steps
+        self._fired |= run.fired
+        for name, values in run.values.items():
+            self._values.setdefault(name, set()).update(values)
         self.taken = {taken(fired) for fired in self._fired}
 
     @property

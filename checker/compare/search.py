@@ -3,14 +3,12 @@
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from random import SystemRandom
 from typing import Protocol
 
-from hypothesis import HealthCheck, Phase, given, seed, settings
-
-from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
-from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, answers, differing, played
+from rovercheck.checker.adapters.implementation import Implementation, notes
+from rovercheck.checker.compare.beside import ComparedStep, StepMismatch
 from rovercheck.checker.compare.coverage import TransitionCoverage
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
@@ -26,8 +24,7 @@ from rovercheck.checker.compare.result import (
 )
 from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.compare.smaller import Budget, mismatch_of, smaller
-from rovercheck.checker.compare.stimulus import Stimulus
-from rovercheck.checker.compare.strategy import stimuli
+from rovercheck.checker.compare.tried_runs import SHARE, RunTrier, Share, TriedRun, shares
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
 from rovercheck.checker.conformance.follower import Behaviour, Situation
 from rovercheck.checker.conformance.tracker import UndecidedRow
@@ -37,7 +34,7 @@ NIGHTLY = 20
 """Nightly examples for each one in CI."""
 
 
-CI_EXAMPLES = 240
+CI_EXAMPLES = SHARE
 
 
 @dataclass(frozen=True)
@@ -63,6 +60,8 @@ CI = effort("ci")
 
 Run = tuple[str, list[ComparedStep]]
 Progress = Callable[["CompareSearch"], None]
+Elsewhere = Callable[[Sequence[Share]], Iterable[TriedRun]]
+"""Tries the random runs of some shares, and says what came of each, in their order."""
 Leading = Callable[[Sequence[Deviation], EvidenceRuns], Sequence[Deviation]]
 """Says which deviations are to be told in full, the first ones first, from all of them and their runs."""
 
@@ -93,6 +92,7 @@ class CompareSearch:
     ``record`` is given what the charts do in each run, ``deviating`` each run of the implementation that is
     not theirs.  ``watched``: whether the result says what was put to the test.  ``leading`` is asked once all
     runs are done.  ``known``: runs are followed beside the changes that explain what is known, too.
+    ``elsewhere`` tries the random runs, if not this process.
     """
 
     env: Environment
@@ -107,6 +107,7 @@ class CompareSearch:
     deviating: Callable[[RecordedRun], None] = lambda run: None
     leading: Leading = lambda found, runs: found
     known: KnownChanges | None = None
+    elsewhere: Elsewhere | None = None
     tally: DeviationTally = field(default_factory=DeviationTally)
     notable: NotableRuns = field(default_factory=NotableRuns)
     failures: list[Failure] = field(default_factory=list)
@@ -120,6 +121,7 @@ class CompareSearch:
         self._seen: set[str] = set()
         self._complete = False
         self._small: list[StepMismatch] = []
+        self._trier = RunTrier(self.env.board, self.implementation, self.watched)
         self._follower = RunFollower(self.env.board, self.watched)
         self._runs: dict[tuple[str, int], RecordedRun] = {}
         self._undecided = Counter[tuple[str, str]]()
@@ -217,37 +219,24 @@ class CompareSearch:
         self._complete = True
 
     def _try(self, origin: str, steps: list[ComparedStep]) -> None:
-        self.tried[self.doing] += 1
-        self.attempt(origin, steps)
-        self.progress(self)
-
-    def attempt(self, origin: str, steps: list[ComparedStep]) -> None:
         """Compare one run to its end.  Raises ``Enough`` when the search is over."""
-        self.coverage.add(steps)
         self.record(origin, steps)
-        try:
-            outputs = self._answers(steps)
-        except ImplementationError as error:
-            outputs = self._failed(origin, steps, error)
-        self.compared += len(outputs)
-        answered = steps[: len(outputs)]
-        if self.watched or differing(answered, outputs):
-            self._follow(RecordedRun(self.env.board, origin, tuple(answered), outputs))
+        self._take(self._trier.tried(origin, steps))
+
+    def _take(self, run: TriedRun) -> None:
+        """What came of a run.  Raises ``Enough`` when the search is over."""
+        self.tried[self.doing] += 1
+        self.coverage.add(run.met)
+        if run.failed is not None:
+            failed, number = run.failed, self.coverage.runs
+            self.failures.append(Failure(self.env.board, run.origin, failed.because, failed.steps, number))
+        self._seen |= run.seen
+        self.compared += run.answered
+        if run.steps or self.watched:
+            self._follow(RecordedRun(self.env.board, run.origin, run.steps, run.outputs))
         if self._hopeless or (self.stop_early and (self.failures or self.tally.groups)):
             raise Enough
-
-    def _answers(self, steps: list[ComparedStep]) -> tuple[Values, ...]:
-        return answers([step.inputs for step in steps], _Listening(self.implementation, self._seen))
-
-    def _failed(
-        self, origin: str, steps: list[ComparedStep], error: ImplementationError
-    ) -> tuple[Values, ...]:
-        """Keep the failure; what was answered in the steps before it, whose outputs were lost."""
-        failed = tuple(steps[: error.step])
-        self.failures.append(Failure(self.env.board, origin, str(error), failed, self.coverage.runs))
-        with suppress(ImplementationError):  # it failed earlier this time
-            return self._answers(steps[: error.step - 1]) if error.step > 1 else ()
-        return ()
+        self.progress(self)
 
     def _follow(self, run: RecordedRun) -> None:
         """Part by part through the charts, to the end."""
@@ -268,46 +257,17 @@ class CompareSearch:
             self._runs[run.origin, one.first.tick] = run.up_to(one.first.tick)
         self.tally.add(groups.values(), evidence or WholeEvidence(), run.origin)
 
-    # --- by Hypothesis ---
-
     def _random(self) -> None:
         """Random runs: all that were asked for, whatever is found in them."""
         self.doing = RANDOM
-        if not self.effort.examples:
-            return
+        some = shares(self.effort.examples, self.effort.seed)
+        if self.elsewhere is None:
+            for share in some:
+                share.each(self.env, lambda steps: self._try(self._drawn, steps))
+        elif some:
+            for run in self.elsewhere(some):
+                self._take(replace(run, origin=self._drawn))
 
-        def one(stimulus: Stimulus) -> None:
-            steps = played(self.env.board, self.env.fields, stimulus)
-            self._try(f"random run {self.tried[RANDOM] + 1}", steps)
-
-        drawing = settings(
-            max_examples=self.effort.examples,
-            deadline=None,
-            database=None,
-            phases=(Phase.generate,),
-            print_blob=False,
-            suppress_health_check=list(HealthCheck),
-        )
-        seed(self.effort.seed)(drawing(given(stimuli(self.env))(one)))()
-
-
-@dataclass
-class _Listening:
-    """An implementation whose outputs are noted by name."""
-
-    implementation: Implementation
-    seen: set[str]
-
-    def reset(self) -> None:
-        self.implementation.reset()
-
-    def step(self, inputs: Values) -> Values:
-        return self.run([inputs])[0]
-
-    def run(self, inputs: Sequence[Values]) -> list[Values]:
-        found = list(run(self.implementation, inputs))
-        self.seen.update(*found)
-        return found
-
-    def close(self) -> None:
-        self.implementation.close()
+    @property
+    def _drawn(self) -> str:
+        return f"random run {self.tried[RANDOM] + 1}"

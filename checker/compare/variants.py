@@ -41,6 +41,16 @@ def boards_of(variant: Variant, name: str | None = None) -> Mapping[str, Board]:
     return {name: with_changes(board, variant) for name, board in found.items()}
 
 
+def board_named(variant: Variant, name: str | None) -> Board:
+    """A board of the rover, or the system of a model of one's own, as a variant has it; as ``boards_of``."""
+    if variant.own is not None:
+        return with_changes(of_model(variant.own, name), variant)
+    known = boards_of(variant)
+    if name is None or name not in known:
+        raise ModelError(f"No board {name!r}. {did_you_mean(name or '', known)}")
+    return known[name]
+
+
 def with_changes(board: Board, variant: Variant) -> Board:
     """A board with the changes of a variant that are of it; stamps taken otherwise are among these."""
     return board if variant.changes is None else variant.changes.applied(board)

@@ -79,7 +79,7 @@ class _CoverSearch(HypothesisSearch):
         self._left: frozenset[int] = frozenset()
         self._witnesses: list[Witness] = []
         self._first = frozenset[int]()
-        self._settled = frozenset[int]()
+        self._settled = self._settled_before = frozenset[int]()
         self._passed_by_good = 0
         self._at_power_up = False
         self._influence = ChangeInfluence(found.evidence.group.system, found.evidence.cone.outputs)
@@ -297,7 +297,10 @@ class _CoverSearch(HypothesisSearch):
 
     def narrowed(self, cone: LogCone, value: Raw, values: Sequence[Raw]) -> Collection[Raw]:
         """The values with which more rows are right behind those that the part as it is decides."""
-        return self._bench.narrowed(cone, PARAMETER, value, values)
+        better = self._bench.narrowed(cone, PARAMETER, value, values)
+        if value not in better:
+            self._settled = self._settled_before
+        return better
 
     def judge(
         self,
@@ -326,7 +329,7 @@ class _CoverSearch(HypothesisSearch):
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
         cases = sum(len(old) - len(new) for old, new in zip(self._base, wrong, strict=True))
-        first = self._first & concerned
+        first, self._settled_before = self._first & concerned, self._settled
         if first and first <= explains:
             self._settled |= concerned
         self._passed_by_good = max(self._passed_by_good, passed)

@@ -6,6 +6,8 @@ from pathlib import Path
 
 OF_A_MODEL = (".py", ".toml")
 """Suffixes of the files that a model in Python is made of, or that lie beside it."""
+OF_SOURCES = (".c", ".h", ".inc", ".toml")
+"""Suffixes of the files that lie beside a file in C."""
 
 
 @dataclass(frozen=True)
@@ -16,14 +18,16 @@ class PackedFiles:
     contents: Mapping[Path, bytes]
 
     @staticmethod
-    def of(paths: Iterable[Path]) -> "PackedFiles":
+    def of(paths: Iterable[Path], whole: Iterable[Path] = ()) -> "PackedFiles":
         """Some files and folders; of a folder, and beside a file in Python, what a model is made of.
 
-        Raises ``OSError``.
+        ``whole``: those of which all is wanted, of a file what it may be made of.  Raises ``OSError``.
         """
-        named = tuple(path.absolute() for path in paths)
-        roots = tuple(dict.fromkeys(path if path.is_dir() else path.parent for path in named))
-        found = {file: file.read_bytes() for path in named for file in _files(path)}
+        named, every = (tuple(path.absolute() for path in some) for some in (paths, whole))
+        folders = (path if path.is_dir() else path.parent for path in (*named, *every))
+        roots = tuple(dict.fromkeys(folders))
+        files = [file for path in named for file in _files(path)] + [f for path in every for f in _all(path)]
+        found = {file: file.read_bytes() for file in dict.fromkeys(files)}
         return PackedFiles(roots, found)
 
     def unpacked(self, folder: Path) -> None:
@@ -45,6 +49,20 @@ def _files(path: Path) -> Iterator[Path]:
         yield from (p for p in sorted(path.rglob("*")) if p.suffix in OF_A_MODEL and p.is_file())
     elif path.suffix == ".py":
         yield from (p for p in sorted(path.parent.iterdir()) if p.suffix in OF_A_MODEL and p.is_file())
+    else:
+        yield path
+
+
+def _all(path: Path) -> Iterator[Path]:
+    """All files of a folder; of a file in Python, or in C, with those beside it, and packages there."""
+    if path.is_dir():
+        yield from (p for p in sorted(path.rglob("*")) if p.is_file())
+    elif path.suffix == ".py":
+        yield from _files(path)
+        for package in sorted(path.parent.glob("*/__init__.py")):
+            yield from (p for p in sorted(package.parent.rglob("*")) if p.suffix in OF_A_MODEL)
+    elif path.suffix == ".c":
+        yield from (p for p in sorted(path.parent.iterdir()) if p.suffix in OF_SOURCES and p.is_file())
     else:
         yield path
 

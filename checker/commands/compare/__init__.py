@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -10,6 +11,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import (
     VariantOptions,
     changing,
+    comparing_elsewhere,
     gathered,
     knowing,
     modelling,
@@ -17,6 +19,9 @@ from rovercheck.checker.commands.shared.options import (
     seeking_causes,
 )
 from rovercheck.checker.commands.shared.silence import say_more
+
+if TYPE_CHECKING:
+    from rovercheck.checker.process.pool import Cluster
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,8 @@ class ComparisonOptions:
     write_variant: Path | None = None
     causes: bool | None = None
     seconds: float = 120.0
+    jobs: int = 1
+    scheduler: "Cluster | None" = None
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")
@@ -85,6 +92,15 @@ class ComparisonOptions:
     metavar="FILE",
     help="Write the causes as a variant, for --variant.",
 )
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    metavar="N",
+    help="Processes with an implementation each that try the random runs, 240 of them at a time.",
+)
+@comparing_elsewhere
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(
     "--output",
@@ -126,5 +142,6 @@ def compare(
         options.write_variant,
         options.seconds,
         options.causes,
+        options.scheduler or options.jobs,
     )
     return run(asked, output, as_json, files)

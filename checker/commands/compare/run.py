@@ -20,15 +20,15 @@ from rovercheck.checker.commands.shared.variant_file import FoundVariant, write_
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, reproduction
 from rovercheck.checker.compare.result import ALLOWED, RANDOM
-from rovercheck.checker.compare.search import CompareSearch
-from rovercheck.checker.compare.variants import boards_of, of_model, with_changes
+from rovercheck.checker.compare.search import CompareSearch, Elsewhere
+from rovercheck.checker.compare.variants import board_named, boards_of
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
 from rovercheck.checker.diagnosis.search import SECONDS
 from rovercheck.checker.diagnosis.variant import WrittenChange
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.variant import Variant
+from rovercheck.checker.process.pool import Jobs
 from rovercheck.spec_model.abstraction import Board
-from rovercheck.spec_model.lang.errors import did_you_mean
 
 AS_DRAWN = VariantOptions()
 
@@ -52,6 +52,8 @@ class CrosscheckOptions:
     """How long the causes of a part are looked for."""
     causes: bool | None = None
     """Whether in every part that deviates, or in none; ``None``: where one does in several ways."""
+    jobs: Jobs = 1
+    """Processes that try the random runs."""
 
     @cached_property
     def variant(self) -> Variant:
@@ -165,17 +167,14 @@ def _boards(asked: CrosscheckOptions) -> list[Board]:
                 f"{asked.variant.own.name} comes with no implementation; write --impl KIND:WHAT, as in "
                 "--impl c:firmware."
             )
-        return [with_changes(of_model(asked.variant.own, asked.system), asked.variant)]
-    known = boards_of(asked.variant)
+        return [board_named(asked.variant, asked.system)]
     if asked.system is None:
         if asked.address is not None:
             raise UsageError(
                 f"--impl {asked.address} is the supervisor of one board; write --system board1 or board2 too."
             )
-        return list(known.values())
-    if asked.system not in known:
-        raise UsageError(f"No board {asked.system!r}. {did_you_mean(asked.system, known)}")
-    return [known[asked.system]]
+        return list(boards_of(asked.variant).values())
+    return [board_named(asked.variant, asked.system)]
 
 
 def _checked(
@@ -204,9 +203,20 @@ def _checked(
                 watched=watched,
                 leading=lambda found, runs: grouping.leading(found, runs, line.show),
                 known=grouping.charts,
+                elsewhere=_elsewhere(asked, board, address, watched),
             )
     finally:
         implementation.close()
+
+
+def _elsewhere(asked: CrosscheckOptions, board: Board, address: str, watched: bool) -> Elsewhere | None:
+    if asked.jobs == 1:
+        return None
+    from rovercheck.checker.commands.compare.elsewhere import RunsOf, tried_elsewhere
+
+    name = asked.system if board.model else board.name
+    runs = RunsOf(asked.charts, name, address, asked.allowance.failures, watched)
+    return partial(tried_elsewhere, runs, asked.jobs)
 
 
 def _doing(board: Board, search: CompareSearch) -> str:
