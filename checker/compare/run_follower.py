@@ -10,16 +10,12 @@ from rovercheck.checker.compare.beside import ComparedStep, differences
 from rovercheck.checker.conformance.cones import LogCone, cones
 from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, Grouping, scope_of
-from rovercheck.checker.conformance.follower import Behaviour, BoardFollower
+from rovercheck.checker.conformance.follower import MISSING, Behaviour, BoardFollower
 from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
 from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction import Board, BoardSignal
 from rovercheck.spec_model.lang.domain import Bool, Enum, exact
-
-MISSING = "missing"
-"""What is said of an output that the implementation gives in other steps."""
-
 
 @dataclass(frozen=True)
 class RecordedRun:

@@ -225,9 +225,19 @@ class BoardFollower:
 
 
 def _meaningless(tracker: Tracker, texts: Mapping[str, str]) -> list[LogDifference]:
-    """The outputs of a part, by name, that were given as what is no value."""
-    given = [o for o in tracker.cone.outputs if o.name in texts]
+    """The outputs of a part, by name, that were given as what is no value, or not where they are required."""
+    outputs = tracker.cone.outputs
+    required = tracker.required or (None,) * len(outputs)
+    given = [
+        o
+        for o, wanted in zip(outputs, required, strict=True)
+        if o.name in texts and (texts[o.name] != MISSING or wanted is not None)
+    ]
     return [tracker.differences.meaningless(o.var.name, texts[o.name], tracker.exact) for o in given]
+
+
+MISSING = "missing"
+"""What is said of an output that the implementation gives in other steps."""
 
 
 def _either(difference: LogDifference) -> tuple[Raw | None, ...]:

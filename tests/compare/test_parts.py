@@ -10,11 +10,12 @@ import pytest
 from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, Values
 from rovercheck.checker.compare import CompareResult, RecordedRun, effort
-from rovercheck.checker.compare.beside import answers
+from rovercheck.checker.compare.beside import answers, played
 from rovercheck.checker.compare.recorded_runs import counterexamples
 from rovercheck.checker.compare.result import Allowance
 from rovercheck.checker.compare.run_follower import RunFollower
 from rovercheck.checker.compare.search import CompareSearch, Run
+from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.deviations import scope_of
@@ -203,6 +204,22 @@ def test_what_is_no_value_is_told_and_what_reads_it_goes_on() -> None:
         ("batt_status", "a value", "missing"),
     }
     assert not result.undecided
+
+
+def test_an_output_that_nobody_requires_may_be_missing() -> None:
+    """Without authority Board 2 sends no speeds; it was told as a deviation wherever something else was."""
+    env = ENVIRONMENTS["board2"]
+
+    def unasked(read: dict[str, float]) -> None:
+        read["crit_mask_b1"] = 0 if read["now_ms"] > 1200 else read["crit_mask_b1"]
+
+    driven = Stimulus((InputBlock(3, env.at_rest), InputBlock(300, (("crit_mask_b1", 4),))))
+    run = "driven", played(env.board, env.fields, driven)
+    assert {"left_rpm"} <= {name for name, value in run[1][-1].expected.items() if value is not None}
+    result = search("board2", Changed("board2", reads=[unasked]), of=[run])
+    told = {d for one in result.deviations for d in one.scope.differences}
+    assert ("b1_requests_switch", "true", "false") in told
+    assert not any(actual == "missing" for _, _, actual in told)
 
 
 def test_the_small_run_has_the_same_difference_and_budgets_are_kept() -> None:
