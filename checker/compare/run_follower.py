@@ -17,6 +17,7 @@ from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction import Board, BoardSignal
 from rovercheck.spec_model.lang.domain import Bool, Enum, exact
 
+
 @dataclass(frozen=True)
 class RecordedRun:
     """A run of an implementation from power-up: what it was given, what the charts do, what it answered."""

@@ -7,7 +7,7 @@ from pathlib import Path
 OF_A_MODEL = (".py", ".toml")
 """Suffixes of the files that a model in Python is made of, or that lie beside it."""
 OF_SOURCES = (".c", ".h", ".inc", ".toml")
-"""Suffixes of the files that lie beside a file in C."""
+"""Suffixes of the files that lie beside a file in C, or beside its map."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,12 @@ class PackedFiles:
         number, root = next((n, r) for n, r in enumerate(self.roots) if whole.is_relative_to(r))
         return folder / str(number) / whole.relative_to(root)
 
+    def named_here(self, text: str, folder: Path) -> str:
+        """A text about files that were unpacked into a folder, with their names here."""
+        for number, root in enumerate(self.roots):
+            text = text.replace(str(folder / str(number)), str(root))
+        return text
+
 
 def _files(path: Path) -> Iterator[Path]:
     if path.is_dir():
@@ -61,7 +67,7 @@ def _all(path: Path) -> Iterator[Path]:
         yield from _files(path)
         for package in sorted(path.parent.glob("*/__init__.py")):
             yield from (p for p in sorted(package.parent.rglob("*")) if p.suffix in OF_A_MODEL)
-    elif path.suffix == ".c":
+    elif path.suffix in OF_SOURCES:
         yield from (p for p in sorted(path.parent.iterdir()) if p.suffix in OF_SOURCES and p.is_file())
     else:
         yield path

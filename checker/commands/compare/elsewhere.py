@@ -3,6 +3,7 @@
 from collections.abc import Generator, Iterable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -11,6 +12,7 @@ from rovercheck.checker.adapters.implementation import ImplementationError
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.compare.beside import ComparedStep
+from rovercheck.checker.compare.search import Elsewhere
 from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.compare.tried_runs import RunTrier, Share, TriedRun
 from rovercheck.checker.compare.variants import board_named
@@ -43,6 +45,7 @@ class ShareTrier:
 
     asked: RunsOf
     folder: "TemporaryDirectory[str] | None" = None
+    files: PackedFiles | None = None
 
     @staticmethod
     def made(asked: RunsOf, files: PackedFiles | None) -> "ShareTrier":
@@ -61,18 +64,21 @@ class ShareTrier:
             model=None if charts.model is None else there(charts.model),
             changes=None if charts.changes is None else there(charts.changes),
         )
-        return ShareTrier(replace(asked, charts=charts, address=moved(asked.address, there)), folder)
+        return ShareTrier(replace(asked, charts=charts, address=moved(asked.address, there)), folder, files)
 
     def __call__(self, send: Send, share: Share) -> None:
         """Send what comes of each run, in order; no more once the implementation has failed too often."""
         board = board_named(self.asked.charts.variant(), self.asked.system)
-        implementation = start(self.asked.address, board)
+        try:
+            implementation = start(self.asked.address, board)
+        except ImplementationError as error:
+            raise ImplementationError(self._named_here(str(error))) from error
         trier, failures = RunTrier(board, implementation, self.asked.always), 0
 
         def one(steps: list[ComparedStep]) -> None:
             nonlocal failures
             run = trier.tried("", steps)
-            send(run)
+            send(self._as_here(run))
             failures += run.failed is not None
             if failures >= self.asked.failures:
                 raise Enough
@@ -84,14 +90,30 @@ class ShareTrier:
         finally:
             implementation.close()
 
+    def _as_here(self, run: TriedRun) -> TriedRun:
+        """A run that failed, with files named as where they were sent from."""
+        if run.failed is None:
+            return run
+        return replace(run, failed=replace(run.failed, because=self._named_here(run.failed.because)))
 
-def tried_elsewhere(asked: RunsOf, jobs: Jobs, some: Sequence[Share]) -> Generator[TriedRun, None, None]:
-    """What comes of the runs of some shares, in their order.  Closing the iterator ends all processes.
+    def _named_here(self, text: str) -> str:
+        if self.files is None or self.folder is None:
+            return text
+        return self.files.named_here(text, Path(self.folder.name))
 
-    Raises ``UsageError`` for what cannot be sent or started there, and ``ClusterError``.
-    """
+
+def elsewhere(asked: RunsOf, jobs: Jobs) -> Elsewhere:
+    """What tries the random runs of shares.  Raises ``UsageError`` for what cannot be sent."""
     files = _files(asked) if isinstance(jobs, Cluster) else None
     pool = Pool(jobs, ShareTrier.made, (asked, files))
+    return partial(_tried, pool, asked.address)
+
+
+def _tried(pool: Pool, address: str, some: Sequence[Share]) -> Generator[TriedRun, None, None]:
+    """What comes of the runs of some shares, in their order.  Closing the iterator ends all processes.
+
+    Raises ``UsageError`` for what cannot be started there, and ``ClusterError``.
+    """
     waiting: dict[int, list[TriedRun]] = {}
     ended, now = set[int](), 0
     with closing(pool.run([Order((share,)) for share in some])) as events:
@@ -99,7 +121,7 @@ def tried_elsewhere(asked: RunsOf, jobs: Jobs, some: Sequence[Share]) -> Generat
             if event.message is not None:
                 waiting.setdefault(event.number, []).append(event.message)
             if event.failure is not None:
-                raise UsageError(f"{asked.address}: its random runs could not be tried: {event.failure}")
+                raise UsageError(f"{address}: its random runs could not be tried: {event.failure}")
             if event.done:
                 ended.add(event.number)
             while now < len(some):
@@ -128,4 +150,4 @@ def _files(asked: RunsOf) -> PackedFiles:
     return files
 
 
-__all__ = ["RunsOf", "ShareTrier", "tried_elsewhere"]
+__all__ = ["RunsOf", "ShareTrier", "elsewhere"]

@@ -15,9 +15,10 @@ from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.compare.beside import differences
 from rovercheck.checker.compare.notable_runs import NotableRun
 from rovercheck.checker.compare.result import Failure
-from rovercheck.checker.compare.run_follower import MISSING, RecordedRun
+from rovercheck.checker.compare.run_follower import RecordedRun
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.excerpt import MOST_LANES, ExcerptWindow, excerpts
+from rovercheck.checker.conformance.follower import MISSING
 from rovercheck.checker.diagnosis.causes import DeviationCause
 from rovercheck.checker.results.campaign import (
     OF_RUNS,

@@ -187,6 +187,7 @@ def _checked(
 ) -> CompareResult:
     if asked.tests is not None and not asked.tests.is_dir():
         raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
+    elsewhere = _elsewhere(asked, board, address, watched)
     try:
         implementation = start(address, board)
     except ImplementationError as error:
@@ -203,7 +204,7 @@ def _checked(
                 watched=watched,
                 leading=lambda found, runs: grouping.leading(found, runs, line.show),
                 known=grouping.charts,
-                elsewhere=_elsewhere(asked, board, address, watched),
+                elsewhere=elsewhere,
             )
     finally:
         implementation.close()
@@ -212,11 +213,11 @@ def _checked(
 def _elsewhere(asked: CrosscheckOptions, board: Board, address: str, watched: bool) -> Elsewhere | None:
     if asked.jobs == 1:
         return None
-    from rovercheck.checker.commands.compare.elsewhere import RunsOf, tried_elsewhere
+    from rovercheck.checker.commands.compare.elsewhere import RunsOf, elsewhere
 
     name = asked.system if board.model else board.name
     runs = RunsOf(asked.charts, name, address, asked.allowance.failures, watched)
-    return partial(tried_elsewhere, runs, asked.jobs)
+    return elsewhere(runs, asked.jobs)
 
 
 def _doing(board: Board, search: CompareSearch) -> str:
