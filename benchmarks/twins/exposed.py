@@ -94,3 +94,14 @@ def differing(one: Values, other: Values) -> set[str]:
         for name in one.keys() & other.keys()
         if one[name] != other[name] and not isclose(one[name], other[name], rel_tol=NEAR, abs_tol=NEAR)
     }
+
+
+def shows_among(firmware: Firmware, planted: Planted, others: Sequence[Planted], examples: int) -> bool:
+    """Whether a difference shows in any run of the firmware that has the others, too: they may mask it."""
+    without = [one for one in others if one is not planted]
+    with running(firmware, [*without, planted]) as whole, running(firmware, without) as rest:
+        return any(
+            bool(one != other and differing(one, other))
+            for inputs in inputs_of(firmware.board_name, examples)
+            for one, other in zip(outputs(rest, inputs), outputs(whole, inputs), strict=True)
+        )

@@ -8,7 +8,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
-from benchmarks.twins.exposed import differing, exposure, inputs_of, outputs, running
+from benchmarks.twins.exposed import differing, exposure, inputs_of, outputs, running, shows_among
 from benchmarks.twins.firmware import HERE, Firmware, Planted
 from benchmarks.twins.recordings import KeptRows, kept, logs, written
 from benchmarks.twins.told import ToldComparison, command, judged, matched, names, told
@@ -83,6 +83,8 @@ def twin(firmware: Firmware, folder: Path, effort: TwinEffort, *more: str) -> It
     for one in firmware.differences:
         group = report.groups[verdict.found[one.id]] if one.id in verdict.found else None
         word = "NOT TOLD" if group is None else "named" if one.id in right else "told"
+        if group is None and not shows_among(firmware, one, firmware.differences, effort.examples):
+            word = "masked"
         yield f"  {word:8} {one.id}{_tags(one)}: {group or one.says}"
     yield from (f"  again    {report.groups[n]}" for n in verdict.again)
     yield from (f"  several  {report.groups[n]}" for n in verdict.mixed)
