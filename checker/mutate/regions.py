@@ -9,15 +9,16 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
 
+from rovercheck.checker.mutate.alike_regions import actions_of, written_alike
 from rovercheck.checker.mutate.memory import FEWEST_CELLS, with_memory
 from rovercheck.checker.mutate.rewrites import mapped
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.lang.action import Action, Assign, If, Send, each_action
-from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, State, Transition, parts
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, State, parts
 from rovercheck.spec_model.lang.domain import Domain, Enum, Num, integer
 from rovercheck.spec_model.lang.edit import in_actions
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.lower.flow import ChartFlow
 from rovercheck.spec_model.lang.lower.ranges import unguarded
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
@@ -130,144 +131,33 @@ def regions_in_one_memory(system: System) -> Iterator[RegionsInOneMemory]:
                 if part is not chart and not part.written.keys().isdisjoint(chart.written)
             ]
             for first, second in combinations(chart.root.states, 2):
-                found = _alike(chart, first, second, blocks)
+                found = _in_one_memory(chart, first, second, blocks)
                 if found is not None:
                     yield found
                     if found.since:
                         yield replace(found, bits=BITS)
 
 
-def _alike(
+def _in_one_memory(
     chart: Chart, first: State, second: State, others: Sequence[Chart | Block]
 ) -> RegionsInOneMemory | None:
-    if any(s.parallel or not s.states or _own(s) for s in (first, second)):
-        return None
-    one, two = list(_content(first)), list(_content(second))
-    if [_shape(t) for t in one] != [_shape(t) for t in two]:
-        return None
-    instead: dict[str, Var] = {}
-    vars_ = {t.name: t for t in one if isinstance(t, Var)}
-    written = [{v.name for v in _assigned(state)} for state in (first, second)]
-    for here, there in zip(one, two, strict=True):
-        if isinstance(here, Var) and isinstance(there, Var):
-            if instead.setdefault(here.name, there) is not there and instead[here.name].name != there.name:
-                return None
-            if (here.name in written[0]) != (there.name in written[1]):
-                return None
-    pairs = {name: (vars_[name], instead[name]) for name in instead if name in written[0]}
-    if not pairs or not all(_one_memory(one, two) for one, two in pairs.values()):
-        return None
-    since = {
-        n: pair for n, pair in pairs.items() if any(v.name in part.written for v in pair for part in others)
-    }
-    if not all(
-        _gone_by(var, state, others)
-        for pair in since.values()
-        for var, state in zip(pair, (first, second), strict=True)
-    ):
+    pairs = written_alike(first, second)
+    since = {n: pair for n, pair in pairs.items() if any(v.name in o.written for v in pair for o in others)}
+    regions = (first, second)
+    counted = (zip(pair, regions, strict=True) for pair in since.values())
+    if not pairs or not all(_gone_by(var, region, others) for both in counted for var, region in both):
         return None
     data = {name: pair for name, pair in pairs.items() if name not in since}
     return RegionsInOneMemory(chart, first, second, data, since)
 
 
-def _one_memory(one: Var, two: Var) -> bool:
-    """Whether two data may be in one memory: members of enumerations are the numbers that stand for them."""
-    same = one.sort == two.sort or (isinstance(one.sort, Enum) and isinstance(two.sort, Enum))
-    return one.name != two.name and same and one.domain.values == two.domain.values
-
-
-def _own(state: State) -> bool:
-    """Whether a region has actions or transitions of its own."""
-    return bool(state.entry or state.during or state.exit or state.transitions)
-
-
 def _sends(chart: Chart) -> bool:
-    return any(isinstance(a, Send) for _, s in chart.root.walk() for a in each_action(list(_acts(s))))
-
-
-def _acts(state: State) -> Iterator[Action]:
-    yield from (*state.entry, *state.during, *state.exit)
-    for segment in _segments(state):
-        yield from (*segment.do, *segment.then)
-
-
-def _segments(state: State) -> Iterator[Transition]:
-    yield from (*state.transitions, *state.default, *(t for j in state.junctions for t in j.transitions))
-
-
-def _assigned(region: State) -> Iterator[Var]:
-    for _, state in region.walk():
-        for action in each_action(list(_acts(state))):
-            if isinstance(action, Assign):
-                yield action.var
-
-
-def _content(region: State) -> Iterator[object]:
-    """What is drawn in a region, in one order: words, and what its formulas are made of."""
-    for path, state in region.walk():
-        yield path
-        for kind in ("entry", "during", "exit"):
-            yield kind
-            yield from _of_actions(getattr(state, kind))
-        for segment in _segments(state):
-            yield segment.event, segment.target
-            yield from () if segment.guard is None else _of_formula(segment.guard)
-            for actions in (segment.do, segment.then):
-                yield "then"
-                yield from _of_actions(actions)
-
-
-def _of_actions(actions: Sequence[Action]) -> Iterator[object]:
-    for action in actions:
-        match action:
-            case Assign(var, value):
-                yield ":="
-                yield var
-                yield from _of_formula(value)
-            case If(condition, then, otherwise):
-                yield "if"
-                yield from _of_formula(condition)
-                yield from _of_actions(then)
-                yield "else"
-                yield from _of_actions(otherwise)
-                yield "end"
-
-
-def _of_formula(formula: Expr) -> Iterator[Expr]:
-    """The nodes of a formula, without factors: of units, and of numbers that differ."""
-    match formula:
-        case Apply(Op.MUL | Op.SCALE, (Const(), other)) | Apply(Op.MUL | Op.SCALE, (other, Const())):
-            yield from _of_formula(other)
-        case Apply(_, args):
-            yield formula
-            for one in args:
-                yield from _of_formula(one)
-        case Temporal(_, Expr() as inner):
-            yield formula
-            yield from _of_formula(inner)
-        case Named(_, body):
-            yield from _of_formula(body)
-        case _:
-            yield formula
-
-
-def _shape(token: object) -> object:
-    """What two tokens have in common: numbers and data may be others."""
-    match token:
-        case Var():
-            return Var
-        case Const():
-            return Const
-        case Apply():
-            return token.op, len(token.args)
-        case Expr():
-            return type(token), getattr(token, "when", None)
-    return token
+    return any(isinstance(a, Send) for _, s in chart.root.walk() for a in each_action(list(actions_of(s))))
 
 
 def _gone_by(var: Var, region: State, others: Sequence[Chart | Block]) -> bool:
     """Whether blocks only add to a number, and the region only sets it to 0."""
-    inside = [a for _, s in region.walk() for a in each_action(list(_acts(s)))]
+    inside = [a for _, s in region.walk() for a in each_action(list(actions_of(s)))]
     outside = [a for part in others if isinstance(part, Block) for a in each_action(list(part.do))]
     charts = any(var.name in part.written for part in others if isinstance(part, Chart))
     own = [a for a in inside if isinstance(a, Assign) and a.var.name == var.name]
