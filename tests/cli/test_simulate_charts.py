@@ -27,6 +27,15 @@ from = "light < 5"
 to = "light < 2"
 """
 
+ROVER = """board = "board1"
+[[change]]
+kind = "limit"
+chart = "Monitor_temperature"
+at = "everywhere"
+from = "temperature_degC >= 60"
+to = "temperature_degC >= 59.5"
+"""
+
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -68,6 +77,15 @@ def test_a_system_of_the_rover_runs_on_inputs(capfd: pytest.CaptureFixture[str])
     Path("hot.csv").write_text("temp_update,temp_reading,steps\n1,66,201\n", encoding="utf-8")
     assert run(["simulate", "hot.csv", "--system", "temperature"]) == Exit.AS_EXPECTED
     assert "TEMP_HEALTH_CRITICAL" in capfd.readouterr().out
+
+
+@pytest.mark.usefixtures("place")
+def test_a_run_of_changed_charts_of_the_rover_becomes_a_test() -> None:
+    Path("warm.csv").write_text("temp_update,temp_reading,steps\n1,25,5\n1,59.5,210\n", encoding="utf-8")
+    Path("rover.toml").write_text(ROVER, encoding="utf-8")
+    asked = ["simulate", "warm.csv", "--system", "temperature", "--variant", "rover.toml"]
+    assert run([*asked, "-o", "run.py"]) == Exit.AS_EXPECTED
+    assert '"temp_status": 2' in Path("run.py").read_text(encoding="utf-8"), "critical at 59.5 °C"
 
 
 WRONG = [

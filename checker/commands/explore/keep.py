@@ -13,6 +13,7 @@ from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.errors import ModelError
 
 
 def _trace(explorer: Explorer, rest: str) -> None:
@@ -56,17 +57,14 @@ def _save(explorer: Explorer, rest: str) -> None:
         write(session.script(), target)
         explorer.say(f"{whole(target)} holds the commands that make this run again.")
         return
-    from rovercheck.checker.commands.trace.formats import exit_written
+    from rovercheck.checker.commands.trace.formats import exit_written, format_of
     from rovercheck.checker.render import renderers
 
     known = renderers("trace")
-    suffixes = {name: one.FORMAT.suffix for name, one in known.items()}
-    formats = {s: name for name, s in reversed(suffixes.items())} | {".html": "html", ".svg": "svg"}
-    found = [name for suffix, name in formats.items() if target.name.endswith(suffix) and suffix != ".txt"]
-    format = words[1] if len(words) == 2 else max(found, key=lambda n: len(suffixes[n]), default="")
-    if not format:
-        known_suffixes = ", *".join(sorted(formats))
-        raise RefusedInput(f"No format has files like {words[0]}; write one of *{known_suffixes}.")
+    try:
+        format = words[1] if len(words) == 2 else format_of(words[0])
+    except ModelError as error:
+        raise RefusedInput(str(error)) from error
     systems = {**explorer.variant.systems(), session.simulation.system.name: session.simulation.system}
     trace = session.simulation.trace()
     for path in (target, *exit_written(pick("trace format", format, known), trace, systems, target)):

@@ -8,7 +8,8 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, possible, wrote
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.commands.shared.text_wrap import whole
-from rovercheck.checker.commands.trace.formats import exit_written
+from rovercheck.checker.commands.trace.examples import boards_changed
+from rovercheck.checker.commands.trace.formats import exit_written, format_of
 from rovercheck.checker.explore.by_hand.session import MOST_TICKS, Session
 from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.checker.model.variant import Variant
@@ -29,30 +30,21 @@ def simulate_charts(place: Path, variant: Variant, name: str | None, output: Pat
     table without meaning, with its line, and ``ModelError``.
     """
     possible(output)
-    format = _format(output)
+    try:
+        format = "table" if output is None else format_of(str(output))
+    except ModelError as error:
+        raise UsageError(str(error)) from error
     by_name = variant.systems()
     system = _system(by_name, name)
     for note in variant.changes.notes() if variant.changes else ():
         err.print(note, markup=False)
     session = _run(system, place)
     renderer = renderers("trace")[format]
-    others = exit_written(renderer, session.simulation.trace(), {**by_name, system.name: system}, output)
+    trace, systems = session.simulation.trace(), {**by_name, system.name: system}
+    others = exit_written(renderer, trace, systems, output, boards=boards_changed(variant))
     for written in (output, *others):
         wrote(written)
     return Exit.AS_EXPECTED
-
-
-def _format(output: Path | None) -> str:
-    """The format that the name of the output says.  Raises ``UsageError``."""
-    if output is None:
-        return "table"
-    suffixes = {one.FORMAT.suffix: name for name, one in reversed(renderers("trace").items())}
-    suffixes |= {".html": "html", ".svg": "svg", ".txt": "table"}
-    found = [name for suffix, name in suffixes.items() if output.name.endswith(suffix)]
-    if not found:
-        known = ", *".join(sorted(suffixes))
-        raise UsageError(f"No format has files like {whole(output)}; write one of *{known}.")
-    return max(found, key=lambda name: len(renderers("trace")[name].FORMAT.suffix))
 
 
 def _system(by_name: Mapping[str, System], name: str | None) -> System:

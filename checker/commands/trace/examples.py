@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from shlex import quote
 from typing import TYPE_CHECKING
 
@@ -71,7 +70,7 @@ def trace_request(
         )
     systems = variant.systems()
     again = _again(variant, id, state, transition, system)
-    of_run = partial(_boards, variant) if variant.name and variant.own is None else None
+    of_run = boards_changed(variant)
     if id is not None:
         if system is not None:
             raise UsageError(
@@ -115,10 +114,15 @@ def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     return TraceRequest(_unwritten(found), systems, _unrecorded, example=True)
 
 
-def _boards(variant: Variant) -> "Mapping[str, Board]":
-    from rovercheck.checker.compare.variants import boards_of
+def boards_changed(variant: Variant) -> "Callable[[], Mapping[str, Board]] | None":
+    """What makes the rover's boards of a variant, where it changes their charts."""
 
-    return boards_of(variant)
+    def made() -> "Mapping[str, Board]":
+        from rovercheck.checker.compare.variants import boards_of
+
+        return boards_of(variant)
+
+    return made if variant.name and variant.own is None else None
 
 
 def of_transition(wanted: str, systems: Mapping[str, System], system: str | None) -> TraceRequest:

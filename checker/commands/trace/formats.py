@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rovercheck.checker.commands.shared.output import table_width, write
-from rovercheck.checker.render import Renderer, named
+from rovercheck.checker.render import Renderer, named, renderers
 from rovercheck.checker.results.format import Need, Option
 from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
@@ -49,6 +50,23 @@ def exit_written(
     for place, content in zip((there, output), contents, strict=True):
         write(content, place)
     return [there]
+
+
+FIRST = {".html": "html", ".svg": "svg", ".txt": "table"}
+"""Of several formats with one suffix the one that is meant by it."""
+
+
+def format_of(file: str) -> str:
+    """The format that the name of a file says: of suffixes that fit, the longest.
+
+    Raises ``ModelError`` for a name that no format has.
+    """
+    suffixes = {one.FORMAT.suffix: name for name, one in reversed(renderers("trace").items())} | FIRST
+    found = [suffix for suffix in suffixes if file.endswith(suffix)]
+    if not found:
+        known = ", *".join(sorted(suffixes))
+        raise ModelError(f"No format has files like {file}; write one of *{known}.")
+    return suffixes[max(found, key=len)]
 
 
 def fitted(renderer: Renderer, output: Path | None) -> Any:
