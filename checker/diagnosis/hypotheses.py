@@ -20,7 +20,7 @@ from rovercheck.checker.mutate.rewrites import (
     rewrites,
     timer_rewrites,
 )
-from rovercheck.checker.mutate.rounding import COMPUTED, rounded, with_other_age
+from rovercheck.checker.mutate.rounding import rounded, with_other_age
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.board import made_of
@@ -125,26 +125,27 @@ TOLD = {
     "order": "{old} is tested {new}",
     "timer": "a time of {new} instead of {old}",
     "shared": "{old} and {new} share one memory",
-    "rounded": "{old} in {new}",
+    "rounded read": "{old} is read in {new}",
+    "rounded assigned": "{old} is assigned in {new}",
+    "rounded products": "every product is in {new}",
     "extra": "there is an extra transition, {new}",
     "entry": "{new} from {old} is tested in the step in which it is entered, too",
 }
 
+OF_THE_WHOLE = ("everywhere", "memory", "buffers", "arrays", COMPARED, ASSIGNED)
+"""Sites that are no place in a part."""
+TOLD_ALONE = (
+    "members", "bits", "only", "and-or", "also", "rounded read", "rounded assigned", "rounded products",
+)  # fmt: skip
+"""Rewrites that are told otherwise than their kind of change."""
+
 
 def _of_rewrite(system: System, part: Chart | Block, one: Rewrite, kind: ChangeKind) -> ChartChange:
     word: str = "signal" if kind == "exchanged" and one.new not in part.read else kind
-    if one.kind in ("members", "bits", "only", "and-or", "also"):
+    if one.kind in TOLD_ALONE:
         word = one.kind
     text = TOLD[word].format(old=one.old, new=one.new, site=one.site.removeprefix("where "))
-    if kind != "entry" and one.site not in (
-        "everywhere",
-        "memory",
-        "buffers",
-        "arrays",
-        COMPARED,
-        ASSIGNED,
-        COMPUTED,
-    ):
+    if kind not in ("entry", "rounded") and one.site not in OF_THE_WHOLE:
         text += f", {place_text(one.site)}"
     make = partial(_with_part, system, part, one)
     return ChartChange(kind, part.name, one.site, one.old, one.new, text, make)

@@ -32,14 +32,14 @@ def rounded(part: Chart | Block) -> Iterator[Rewrite]:
             for var in part.read.values():
                 if var.name not in part.written and _finer(var, step):
                     make = partial(mapped, part, partial(_read, var.name, step, change))
-                    yield Rewrite("rounded", f"signal/{var.name}", var.name, to, make)
+                    yield Rewrite("rounded read", f"signal/{var.name}", var.name, to, make)
             for var in part.written.values():
                 if _finer(var, step):
                     make = partial(_with_assigned, part, var.name, step, change)
-                    yield Rewrite("rounded", f"everywhere {var.name}", var.name, to, make)
+                    yield Rewrite("rounded assigned", f"everywhere {var.name}", var.name, to, make)
             if any(_multiplied(node, step) for node in _nodes(part)):
                 make = partial(mapped, part, partial(_product, step, change))
-                yield Rewrite("rounded", COMPUTED, "what is multiplied", to, make)
+                yield Rewrite("rounded products", COMPUTED, "products", to, make)
 
 
 Round = Callable[[Expr, int], Expr]
