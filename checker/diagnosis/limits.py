@@ -9,32 +9,25 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from itertools import zip_longest
 from math import ceil, floor, log10
 
 from rovercheck.checker.conformance.numbers import number_between, open_number
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, place_text
-from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.met_values import MetValues
 from rovercheck.checker.mutate.formulas import BESIDE
 from rovercheck.checker.mutate.places import FormulaPlace
 from rovercheck.checker.mutate.rewrites import mapped, numbers_in, same_shape
 from rovercheck.checker.mutate.wiring import kept
-from rovercheck.spec_model.abstraction.signals import computed
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.domain import show as number_text
 from rovercheck.spec_model.lang.edit import in_system
-from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Temporal, aligned
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, aligned
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.lang.walk import nodes, structure, variables
+from rovercheck.spec_model.lang.walk import nodes, structure
 
-BEFORE = 260
-"""Rows before a case whose values may have brought it about."""
-MOST_MET = 80
-"""Values met before a case that are tried as limits."""
 _SIDES = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
 CLOSED = (Op.LE, Op.GE)
 OPPOSITE = {Op.LT: Op.GE, Op.GE: Op.LT, Op.LE: Op.GT, Op.GT: Op.LE}
@@ -271,64 +264,6 @@ def simplest(low: Fraction, high: Fraction, closed_low: bool, closed_high: bool)
     return min(ends, key=digits) if ends else (low + high) / 2
 
 
-class MetValues:
-    """The values that formulas had in the recordings: all of them, and those shortly before a case.
-
-    And those behind the rows that the drawn part decides.
-    """
-
-    def __init__(self, evidence: PartEvidence) -> None:
-        self._evidence = evidence
-        self._known: dict[object, tuple[list[Fraction], list[Fraction]]] = {}
-
-    def of(self, formula: Expr) -> tuple[list[Fraction], list[Fraction]]:
-        """All values, sorted; those before cases, the latest first.  Of formulas of what is recorded only."""
-        key = structure(formula)
-        if key not in self._known:
-            self._known[key] = self._met(formula)
-        return self._known[key]
-
-    def of_all(self, formulas: Sequence[Expr]) -> tuple[list[Fraction], list[Fraction]]:
-        """The values of several formulas together, in the same order."""
-        if len(formulas) == 1:
-            return self.of(formulas[0])
-        every, recent = zip(*map(self.of, formulas), strict=True)
-        latest = (value for rank in zip_longest(*recent) for value in rank if value is not None)
-        return sorted({value for some in every for value in some}), list(dict.fromkeys(latest))
-
-    def _met(self, formula: Expr) -> tuple[list[Fraction], list[Fraction]]:
-        names = list(variables(formula))
-        every: set[Fraction] = set()
-        recent: dict[Fraction, None] = {}
-        if any(isinstance(n, Temporal) for n in nodes(formula)):
-            return [], []
-        cases: list[list[Fraction]] = []
-        for run in self._evidence.runs:
-            if not all(name in run.columns for name in names):
-                continue
-            columns = [run.columns[name] for name in names]
-            values = [self._value(formula, names, row) for row in zip(*columns, strict=True)]
-            every.update(v for v in values if v is not None)
-            for case in run.cases(self._evidence.name):
-                window = values[max(0, case.first - BEFORE) : case.first + 1][::-1]
-                cases.append(list(dict.fromkeys(v for v in window if v is not None))[:MOST_MET])
-            if (lost := run.undecided.get(self._evidence.name)) is not None:
-                window = values[lost : lost + BEFORE]
-                cases.append(list(dict.fromkeys(v for v in window if v is not None))[:MOST_MET])
-        for rank in range(max(map(len, cases), default=0)):
-            recent.update((case[rank], None) for case in cases if rank < len(case))
-            if len(recent) >= 4 * MOST_MET:
-                break
-        return sorted(every), list(recent)
-
-    @staticmethod
-    def _value(formula: Expr, names: Sequence[str], row: Sequence[Raw | None]) -> Fraction | None:
-        if any(v is None for v in row):
-            return None
-        at: Mapping[str, Raw] = {n: v for n, v in zip(names, row, strict=True) if v is not None}
-        return Fraction(evaluate(formula, computed(at)))
-
-
 def values_of(
     slot: NumberSlot, met: MetValues, factors: Iterable[Fraction]
 ) -> Mapping[tuple[Op | None, Fraction], Gap | None]:
@@ -402,4 +337,4 @@ def _constants(slot: NumberSlot, factors: Iterable[Fraction]) -> Iterator[Fracti
         yield -whole * unit
 
 
-__all__ = ["MetValues", "NumberSlot", "digits", "number_slots", "simplest", "values_of"]
+__all__ = ["NumberSlot", "digits", "number_slots", "simplest", "values_of"]

@@ -28,7 +28,8 @@ from rovercheck.checker.diagnosis.hypotheses import (
     timer_changes,
     written_changes,
 )
-from rovercheck.checker.diagnosis.limits import MetValues, NumberSlot, number_slots, values_of
+from rovercheck.checker.diagnosis.limits import NumberSlot, number_slots, values_of
+from rovercheck.checker.diagnosis.met_values import MetValues
 from rovercheck.checker.diagnosis.trial import NO_VALUE, Parameter, Trial, TrialBench
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.board import with_readings

@@ -15,6 +15,7 @@ WITHOUT = {
     "rovercheck.checker.conformance.program": "has the table of Python's text, with two rows for decimals",
     "rovercheck.checker.export.infix": "is the part that the tables of SMV and Promela have in common",
     "rovercheck.checker.encode.terms": "simplifies some operators, and leaves the others as they are",
+    "rovercheck.checker.mutate.rounding": "makes formulas",
     "rovercheck.spec_model.lang.words": "makes formulas",
 }
 """What speaks of division, which every target writes in a way of its own, without a table."""
