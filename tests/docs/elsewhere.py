@@ -49,7 +49,7 @@ COMMANDS = {
     "rovercheck mutate --system board1 --scheduler tcp://192.168.0.7:8786": CLUSTERS,
     "rovercheck generate-tests --system board1 --scheduler tcp://192.168.0.7:8786": CLUSTERS,
     "rovercheck check-log examples/logs --scheduler tcp://192.168.0.7:8786": CLUSTERS,
-    "rovercheck compare --system board1 --impl c:FOLDER --profile nightly --scheduler tcp://192.168.0.7:8786": CLUSTERS,
+    "rovercheck compare --system board1 --profile nightly --scheduler tcp://192.168.0.7:8786": CLUSTERS,
     "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
     "make test-full": MAKES,
