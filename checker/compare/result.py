@@ -93,6 +93,8 @@ class CompareResult:
     tally: DeviationTally = field(default_factory=DeviationTally)
     notable: NotableRuns = field(default_factory=NotableRuns)
     """The runs in which a deviation is met first, or for longest."""
+    lost: bool = False
+    """Whether runs could not be tried where they were sent."""
 
     @property
     def met(self) -> Mapping[DeviationScope, Deviation]:
@@ -113,7 +115,7 @@ class CompareResult:
     def conclusive(self) -> bool:
         """Whether the search came to its end, and something was compared in it."""
         nothing = len(self.uncompared) == len(self.board.outputs)
-        return not (self.interrupted or nothing)
+        return not (self.interrupted or self.lost or nothing)
 
     @property
     def differs(self) -> bool:

@@ -24,7 +24,7 @@ from rovercheck.checker.compare.result import (
 )
 from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.compare.smaller import Budget, mismatch_of, smaller
-from rovercheck.checker.compare.tried_runs import SHARE, RunTrier, Share, TriedRun, shares
+from rovercheck.checker.compare.tried_runs import SHARE, RunsLost, RunTrier, Share, TriedRun, shares
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
 from rovercheck.checker.conformance.follower import Behaviour, Situation
 from rovercheck.checker.conformance.tracker import UndecidedRow
@@ -61,7 +61,7 @@ CI = effort("ci")
 Run = tuple[str, list[ComparedStep]]
 Progress = Callable[["CompareSearch"], None]
 Elsewhere = Callable[[Sequence[Share]], Iterable[TriedRun]]
-"""Tries the random runs of some shares, and says what came of each, in their order."""
+"""Tries the random runs of some shares, and says what came of each, in their order.  Raises ``RunsLost``."""
 Leading = Callable[[Sequence[Deviation], EvidenceRuns], Sequence[Deviation]]
 """Says which deviations are to be told in full, the first ones first, from all of them and their runs."""
 
@@ -119,7 +119,7 @@ class CompareSearch:
     def __post_init__(self) -> None:
         self.coverage = TransitionCoverage(self.env.board)
         self._seen: set[str] = set()
-        self._complete = False
+        self._complete, self._lost = False, ""
         self._small: list[StepMismatch] = []
         self._trier = RunTrier(self.env.board, self.implementation, self.watched)
         self._follower = RunFollower(self.env.board, self.watched)
@@ -161,6 +161,7 @@ class CompareSearch:
             frozenset(self._situations),
             self.tally,
             self.notable,
+            bool(self._lost),
         )
 
     def _mismatches(self) -> list[StepMismatch]:
@@ -182,6 +183,7 @@ class CompareSearch:
             why = f"given up after {len(self.failures)} run{'s' * (len(self.failures) != 1)} not survived"
         else:
             why = "only the first mismatch was wanted" if self.stop_early else "no more could be drawn"
+            why = self._lost or why
         drawn = self.tried[RANDOM]
         return (
             CompareStage(FIXED, self.tried[FIXED], None, "" if self._complete else why),
@@ -265,8 +267,11 @@ class CompareSearch:
             for share in some:
                 share.each(self.env, lambda steps: self._try(self._drawn, steps))
         elif some:
-            for run in self.elsewhere(some):
-                self._take(replace(run, origin=self._drawn))
+            try:
+                for run in self.elsewhere(some):
+                    self._take(replace(run, origin=self._drawn))
+            except RunsLost as lost:
+                self._lost = str(lost)
 
     @property
     def _drawn(self) -> str:

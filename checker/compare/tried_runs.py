@@ -45,6 +45,10 @@ class FailedRun:
     steps: tuple[ComparedStep, ...]
 
 
+class RunsLost(Exception):
+    """No more random runs can be tried elsewhere; the message says why."""
+
+
 @dataclass(frozen=True)
 class TriedRun:
     """A run, and what the implementation made of it.
@@ -150,4 +154,4 @@ def _seed(first: int, number: int) -> int:
     return int.from_bytes(made[:4], "big") if number else first
 
 
-__all__ = ["SHARE", "FailedRun", "RunCoverage", "RunTrier", "Share", "TriedRun", "shares"]
+__all__ = ["SHARE", "FailedRun", "RunCoverage", "RunTrier", "RunsLost", "Share", "TriedRun", "shares"]

@@ -126,6 +126,36 @@ def test_the_first_share_is_of_the_seed_that_was_asked_for() -> None:
     assert not shares(0, 5)
 
 
+PORT = """
+from pathlib import Path
+
+from rests.of_heater import Heater
+
+try:
+    Path(__file__).with_name("port").open("x").close()
+except FileExistsError:
+    raise RuntimeError("the port is taken") from None
+
+
+class OnPort(Heater):
+    pass
+"""
+
+
+def test_what_cannot_be_started_twice_leaves_the_random_runs_out(
+    folder: Path, ways: list[list[str]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What the fixed runs say is told all the same."""
+    (folder / "firmware.py").write_text(PORT, encoding="utf-8")
+    address = f"python:{folder / 'firmware.py'}:OnPort"
+    asked = ["--model", str(folder / "heater.py"), "--impl", address, "--examples", "20"]
+    code, document = told(capsys, *asked, "--jobs", "2")
+    assert code is Exit.INCONCLUSIVE
+    [fixed, random] = document["results"][0]["tried"]
+    assert fixed["tried"] > 0 == random["tried"]
+    assert "could not be tried elsewhere" in random["because"] and "the port is taken" in random["because"]
+
+
 # --- what cannot be sent ---------------------------------------------------------------------------------
 
 

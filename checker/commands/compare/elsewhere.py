@@ -1,7 +1,7 @@
 """The random runs of a comparison, tried by other processes here, or by the workers of a cluster."""
 
-from collections.abc import Generator, Iterable, Sequence
-from contextlib import closing
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -14,9 +14,10 @@ from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.compare.beside import ComparedStep
 from rovercheck.checker.compare.search import Elsewhere
 from rovercheck.checker.compare.strategy import environment
-from rovercheck.checker.compare.tried_runs import RunTrier, Share, TriedRun
+from rovercheck.checker.compare.tried_runs import RunsLost, RunTrier, Share, TriedRun
 from rovercheck.checker.compare.variants import board_named
 from rovercheck.checker.io.packed_files import PackedFiles
+from rovercheck.checker.process.cluster import ClusterError, connected
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.process.pool import Cluster, Jobs, Order, Pool
 
@@ -103,8 +104,15 @@ class ShareTrier:
 
 
 def elsewhere(asked: RunsOf, jobs: Jobs) -> Elsewhere:
-    """What tries the random runs of shares.  Raises ``UsageError`` for what cannot be sent."""
-    files = _files(asked) if isinstance(jobs, Cluster) else None
+    """What tries the random runs of shares.
+
+    Raises ``UsageError`` for what cannot be sent, and ``ClusterError`` where there is nobody to send it to.
+    """
+    files = None
+    if isinstance(jobs, Cluster):
+        files = _files(asked)
+        with connected(jobs):
+            pass
     pool = Pool(jobs, ShareTrier.made, (asked, files))
     return partial(_tried, pool, asked.address)
 
@@ -112,16 +120,16 @@ def elsewhere(asked: RunsOf, jobs: Jobs) -> Elsewhere:
 def _tried(pool: Pool, address: str, some: Sequence[Share]) -> Generator[TriedRun, None, None]:
     """What comes of the runs of some shares, in their order.  Closing the iterator ends all processes.
 
-    Raises ``UsageError`` for what cannot be started there, and ``ClusterError``.
+    Raises ``RunsLost`` where nobody tries them, or the implementation cannot be started there.
     """
     waiting: dict[int, list[TriedRun]] = {}
     ended, now = set[int](), 0
-    with closing(pool.run([Order((share,)) for share in some])) as events:
+    with _told_of(address), closing(pool.run([Order((share,)) for share in some])) as events:
         for event in events:
             if event.message is not None:
                 waiting.setdefault(event.number, []).append(event.message)
             if event.failure is not None:
-                raise UsageError(f"{address}: its random runs could not be tried: {event.failure}")
+                raise RunsLost(event.failure)
             if event.done:
                 ended.add(event.number)
             while now < len(some):
@@ -129,6 +137,14 @@ def _tried(pool: Pool, address: str, some: Sequence[Share]) -> Generator[TriedRu
                 if now not in ended:
                     break
                 now += 1
+
+
+@contextmanager
+def _told_of(address: str) -> Iterator[None]:
+    try:
+        yield
+    except (RunsLost, ClusterError) as error:
+        raise RunsLost(f"{address} could not be tried elsewhere: {error}") from error
 
 
 def _files(asked: RunsOf) -> PackedFiles:

@@ -320,7 +320,10 @@ def _verdict(of: CrosscheckReport) -> str:
         return f"has {known} and no other{undecided}"
     if result.conforms:
         return "conforms"
-    return "is inconclusive (interrupted)" if result.interrupted else "is inconclusive (no output to compare)"
+    why = (
+        "interrupted" if result.interrupted else "runs are missing" if result.lost else "no output to compare"
+    )
+    return f"is inconclusive ({why})"
 
 
 def _differences(of: CrosscheckReport) -> Iterator[str]:
