@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from itertools import product
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -90,12 +90,13 @@ class TrialBench:
 
         And, by their numbers, what it gets wrong in these runs.
         """
-        every = {n: len(run) for n, run in enumerate(self.runs) if self._end(n) < len(run)}
-        whole = TrialBench(self.evidence, self.readings, every)
+        every = [n for n, run in enumerate(self.runs) if self._end(n) < len(run)]
+        if not every:
+            return self, {}
         ends, found = dict(self.ends), dict[int, Wrong]()
-        for number, end in every.items():
-            wrong: dict[int, frozenset[tuple[str, int]]] = {}
-            for row, mismatch in whole.mismatches(cone, number, parameter):
+        for number in every:
+            end, wrong = len(self.runs[number]), dict[int, frozenset[tuple[str, int]]]()
+            for row, mismatch in self._whole.mismatches(cone, number, parameter):
                 if mismatch is None:
                     end = row
                     break
@@ -103,6 +104,11 @@ class TrialBench:
             if end > self._end(number):
                 ends[number], found[number] = end, wrong
         return TrialBench(self.evidence, self.readings, ends), found
+
+    @cached_property
+    def _whole(self) -> "TrialBench":
+        """The same with all rows of all runs."""
+        return TrialBench(self.evidence, self.readings, {n: len(run) for n, run in enumerate(self.runs)})
 
     def rows_behind(self, cone: LogCone) -> int:
         """How many more rows a changed part explains in runs that the drawn one does not decide."""
