@@ -2,12 +2,21 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 
 OF_A_MODEL = (".py", ".toml")
 """Suffixes of the files that a model in Python is made of, or that lie beside it."""
 OF_SOURCES = (".c", ".h", ".inc", ".toml")
 """Suffixes of the files that lie beside a file in C, or beside its map."""
+
+
+class TooLarge(Exception):
+    """Files that are not read, as they are so many bytes."""
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        super().__init__(f"{size:,} bytes")
 
 
 @dataclass(frozen=True)
@@ -18,15 +27,19 @@ class PackedFiles:
     contents: Mapping[Path, bytes]
 
     @staticmethod
-    def of(paths: Iterable[Path], whole: Iterable[Path] = ()) -> "PackedFiles":
+    def of(paths: Iterable[Path], whole: Iterable[Path] = (), most: float = inf) -> "PackedFiles":
         """Some files and folders; of a folder, and beside a file in Python, what a model is made of.
 
-        ``whole``: those of which all is wanted, of a file what it may be made of.  Raises ``OSError``.
+        ``whole``: those of which all is wanted, of a file what it may be made of.  ``most``: bytes of all
+        files together.  Raises ``OSError``, and ``TooLarge`` for more.
         """
         named, every = (tuple(path.absolute() for path in some) for some in (paths, whole))
         folders = (path if path.is_dir() else path.parent for path in (*named, *every))
         roots = tuple(dict.fromkeys(folders))
         files = [file for path in named for file in _files(path)] + [f for path in every for f in _all(path)]
+        size = sum(file.stat().st_size for file in dict.fromkeys(files))
+        if size > most:
+            raise TooLarge(size)
         found = {file: file.read_bytes() for file in dict.fromkeys(files)}
         return PackedFiles(roots, found)
 
@@ -73,4 +86,4 @@ def _all(path: Path) -> Iterator[Path]:
         yield path
 
 
-__all__ = ["PackedFiles"]
+__all__ = ["PackedFiles", "TooLarge"]

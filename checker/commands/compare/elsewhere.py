@@ -12,21 +12,17 @@ from rovercheck.checker.adapters.implementation import ImplementationError
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.options import VariantOptions
 from rovercheck.checker.compare.beside import ComparedStep
-from rovercheck.checker.compare.search import Elsewhere
+from rovercheck.checker.compare.search import Elsewhere, Enough
 from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.compare.tried_runs import RunsLost, RunTrier, Share, TriedRun
 from rovercheck.checker.compare.variants import board_named
-from rovercheck.checker.io.packed_files import PackedFiles
+from rovercheck.checker.io.packed_files import PackedFiles, TooLarge
 from rovercheck.checker.process.cluster import ClusterError, connected
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.process.pool import Cluster, Jobs, Order, Pool
 
 MOST_BYTES = 64 << 20
 """Bytes of an implementation that are sent to each worker."""
-
-
-class Enough(Exception):
-    """An implementation has failed as often as it may."""
 
 
 @dataclass(frozen=True)
@@ -154,16 +150,14 @@ def _files(asked: RunsOf) -> PackedFiles:
         raise UsageError(f"--scheduler: {error}") from error
     charts: Iterable[Path | None] = (asked.charts.model, asked.charts.changes)
     try:
-        files = PackedFiles.of([path for path in charts if path is not None], own)
+        return PackedFiles.of([path for path in charts if path is not None], own, MOST_BYTES)
     except OSError as error:
         raise UsageError(f"{error.filename}: {error.strerror}. It must be readable to be sent.") from error
-    size = sum(map(len, files.contents.values()))
-    if size > MOST_BYTES:
+    except TooLarge as error:
         raise UsageError(
-            f"{asked.address}: with what lies beside it, it is {size >> 20} MiB, and {MOST_BYTES >> 20} MiB "
-            "are sent at most; give it a folder of its own."
-        )
-    return files
+            f"{asked.address}: with what lies beside it, it is {error.size >> 20} MiB, and "
+            f"{MOST_BYTES >> 20} MiB are sent at most; give it a folder of its own."
+        ) from error
 
 
 __all__ = ["RunsOf", "ShareTrier", "elsewhere"]
