@@ -88,7 +88,8 @@ class TrialBench:
     ) -> tuple["TrialBench", dict[int, Wrong]]:
         """The same with all rows that a changed part decides of runs that the drawn one does not decide.
 
-        And, by their numbers, what it gets wrong in these runs.
+        And, by their numbers, what it gets wrong in these runs; a run in which a number has no meaning to it
+        stays as it is.
         """
         every = [n for n, run in enumerate(self.runs) if self._end(n) < len(run)]
         if not every:
@@ -96,11 +97,14 @@ class TrialBench:
         ends, found = dict(self.ends), dict[int, Wrong]()
         for number in every:
             end, wrong = len(self.runs[number]), dict[int, frozenset[tuple[str, int]]]()
-            for row, mismatch in self._whole.mismatches(cone, number, parameter):
-                if mismatch is None:
-                    end = row
-                    break
-                wrong[row] = differing(mismatch)
+            try:
+                for row, mismatch in self._whole.mismatches(cone, number, parameter):
+                    if mismatch is None:
+                        end = row
+                        break
+                    wrong[row] = differing(mismatch)
+            except NO_VALUE:
+                continue
             if end > self._end(number):
                 ends[number], found[number] = end, wrong
         return TrialBench(self.evidence, self.readings, ends), found

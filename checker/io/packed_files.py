@@ -58,7 +58,7 @@ class PackedFiles:
 
     def named_here(self, text: str, folder: Path) -> str:
         """A text about files that were unpacked into a folder, with their names here."""
-        for number, root in enumerate(self.roots):
+        for number, root in reversed(list(enumerate(self.roots))):  # 10 before 1
             text = text.replace(str(folder / str(number)), str(root))
         return text
 
