@@ -18,6 +18,7 @@ from rovercheck.checker.process.pool import Again, Order, Pool, PoolEvent
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.checker.verify.search_worker import PropertyDecided, TaskCertificates
+from tests.model_files.files import CRITICAL_AT_59_5
 from tests.process.cluster import LocalCluster, local_cluster
 
 pytestmark = pytest.mark.skipif(not CLUSTER.installed, reason=CLUSTER.needed("a cluster"))
@@ -65,14 +66,7 @@ def test_covering_tests_and_mutants_too(
         assert told[0] == told[1], verb
 
 
-VARIANT = """board = "board1"
-[[change]]
-kind = "limit"
-chart = "Monitor_temperature"
-at = "everywhere"
-from = "temperature_degC >= 60"
-to = "temperature_degC >= 59.5"
-"""
+VARIANT = 'board = "board1"\n' + CRITICAL_AT_59_5
 
 
 def test_logs_with_their_map_and_a_variant_too(

@@ -7,6 +7,7 @@ import pytest
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
+from tests.model_files.files import CRITICAL_AT_59_5
 
 LAMP = """from rovercheck import *
 
@@ -27,14 +28,7 @@ from = "light < 5"
 to = "light < 2"
 """
 
-ROVER = """board = "board1"
-[[change]]
-kind = "limit"
-chart = "Monitor_temperature"
-at = "everywhere"
-from = "temperature_degC >= 60"
-to = "temperature_degC >= 59.5"
-"""
+ROVER = 'board = "board1"\n' + CRITICAL_AT_59_5
 
 
 @pytest.fixture

@@ -10,17 +10,14 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.check.chain_status import Chains
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.variant import pick_variant
+from tests.model_files.files import CRITICAL_AT_59_5
 
-CHANGE = """board = "board1"
+CHANGE = (
+    """board = "board1"
 evidence = "compare, c:firmware: the changes explain 41 of 41 deviations."
-
-[[change]]
-kind = "limit"
-chart = "Monitor_temperature"
-at = "everywhere"
-from = "temperature_degC >= 60"
-to = "temperature_degC >= 59.5"
 """
+    + CRITICAL_AT_59_5
+)
 ELSEWHERE = """board = "board1"
 
 [[change]]

@@ -46,6 +46,16 @@ class HotAndBrief(Heater):
 """
 """A firmware of the heater that does what its chart does, and three that do not."""
 
+CRITICAL_AT_59_5 = """
+[[change]]
+kind = "limit"
+chart = "Monitor_temperature"
+at = "everywhere"
+from = "temperature_degC >= 60"
+to = "temperature_degC >= 59.5"
+"""
+"""A change of the rover's charts, as a variant holds it: a limit between two values of its domain."""
+
 
 def but(old: str, new: str) -> str:
     """The heater with another text in one place."""
