@@ -99,7 +99,7 @@ class Firmware:
         """The texts of its files, by their place in its folder."""
         folder = HERE / "firmware" / self.name if self.language == "c" else SUPERVISOR
         files = sorted(f for f in folder.rglob("*") if f.suffix in (".c", ".h", ".toml", ".py"))
-        names = {str(f.relative_to(folder)): f for f in files if "bench" not in f.parts}
+        names = {str(own): f for f in files if "bench" not in (own := f.relative_to(folder)).parts}
         return {name: f.read_text(encoding="utf-8") for name, f in names.items()}
 
     def written(self, folder: Path, planted: Iterable[Planted] = ()) -> str:

@@ -106,11 +106,12 @@ def further(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[st
     """Writes what is known of the twin, and plants each further fault on top: is it reported as new?"""
     address = firmware.written(folder / "twin", firmware.differences)
     known = folder / "known.toml"
-    report = told(firmware, address, folder, effort.examples, "--write-known", str(known))
+    seconds = "--seconds", str(effort.seconds)
+    report = told(firmware, address, folder, effort.examples, "--write-known", str(known), *seconds)
     if not known.exists():
         yield f"further: no file of known deviations was written: {report.trouble}"
         return
-    with_known = ("--known", str(known))
+    with_known = ("--known", str(known), "--no-causes")  # what is new is asked, and not why
     again = told(firmware, address, folder, effort.examples, *with_known)
     yield f"all known: exit code {again.answer} (0 is right), {len(again.new)} groups new {again.trouble}"
     yield from (f"  STILL NEW {group}" for group in again.new)

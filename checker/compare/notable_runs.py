@@ -37,6 +37,10 @@ class NotableRuns:
     def add(self, number: int, run: RecordedRun, groups: Collection[Deviation]) -> None:
         """One more run that deviates, in the order of their numbers."""
         self.deviating += 1
+        self.more(number, run, groups)
+
+    def more(self, number: int, run: RecordedRun, groups: Collection[Deviation]) -> None:
+        """More deviations of a run that deviates."""
         notable = False
         for one in groups:
             first = one.first.tick, run.origin, number
@@ -46,7 +50,8 @@ class NotableRuns:
             if one.scope not in self._worst or worst[:2] > self._worst[one.scope][:2]:
                 self._worst[one.scope], notable = worst, True
         if notable:
-            self._kept[number] = NotableRun(number, run, tuple(groups))
+            before = self._kept[number].groups if number in self._kept else ()
+            self._kept[number] = NotableRun(number, run, (*before, *groups))
             wanted = {at[-1] for at in (*self._first.values(), *self._worst.values())}
             self._kept = {number: kept for number, kept in self._kept.items() if number in wanted}
 

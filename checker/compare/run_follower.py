@@ -6,7 +6,7 @@ from functools import cached_property
 from math import isfinite
 
 from rovercheck.checker.adapters.implementation import Value, Values
-from rovercheck.checker.compare.beside import ComparedStep, differences
+from rovercheck.checker.compare.beside import ComparedStep, differences, rerun
 from rovercheck.checker.conformance.cones import LogCone, cones
 from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, Grouping, scope_of
@@ -15,6 +15,7 @@ from rovercheck.checker.conformance.mismatch import LogDifference, LogMismatch
 from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.spec_model.abstraction import Board, BoardSignal
+from rovercheck.spec_model.abstraction.signals import units
 from rovercheck.spec_model.lang.domain import Bool, Enum, exact
 
 
@@ -168,6 +169,27 @@ def recorded_block(board: Board, inputs: Sequence[Values], outputs: Sequence[Val
                 meaningless[output.name] = texts
     ticks = range(1, len(inputs) + 1)
     return LogBlock(ticks, ticks, [0] * len(inputs), values, meaningless)
+
+
+def recorded_run(board: Board, origin: str, block: LogBlock) -> RecordedRun:
+    """The run that rows of a recording are of."""
+    inputs = {s.name: [units(s.domain, raw) for raw in _all(block.values[s.name])] for s in board.inputs}
+    steps = rerun(board, [dict(zip(inputs, row, strict=True)) for row in zip(*inputs.values(), strict=True)])
+    outputs: list[dict[str, Value]] = [{} for _ in steps]
+    for one in (o for o in board.outputs if o.name in block.values):
+        texts = block.meaningless.get(one.name, {})
+        for row, (given, raw) in enumerate(zip(outputs, block.values[one.name], strict=True)):
+            if raw is not None:
+                given[one.name] = units(one.signal.domain, raw)
+            elif texts.get(row, MISSING) != MISSING:
+                given[one.name] = float(texts[row])
+    return RecordedRun(board, origin, tuple(steps), tuple(outputs))
+
+
+def _all(cells: Cells) -> list[Raw]:
+    known = [cell for cell in cells if cell is not None]
+    assert len(known) == len(cells), "a run of an implementation has all inputs"
+    return known
 
 
 def rows_of(block: LogBlock, start: int, end: int) -> LogBlock:

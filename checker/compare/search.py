@@ -1,7 +1,7 @@
 """The search for mismatches: fixed runs, recorded runs, then random ones that Hypothesis draws."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from random import SystemRandom
@@ -75,10 +75,17 @@ class KnownChanges(Protocol):
         """What is undecided of a run, and what deviates on top of what is known."""
 
     def told(self, found: Sequence[Deviation]) -> Sequence[Deviation]:
-        """What is to be told of deviations from the charts as drawn, and those on top of what is known."""
+        """What is to be told of deviations from the charts as drawn, and those on top of what is known.
+
+        Once causes were looked for, also those on top of these.
+        """
 
     def follower(self, part: str) -> RunFollower:
-        """What follows a part with the changes."""
+        """What follows a part with the changes on top of which it deviates."""
+
+    @property
+    def left(self) -> Mapping[str, Sequence[Deviation]]:
+        """Of runs kept as evidence, by their origins, what deviates on top of the causes found."""
 
 
 class Enough(BaseException):
@@ -198,6 +205,10 @@ class CompareSearch:
         """Make the mismatches small that are told in full, what explains most first."""
         self.doing = "looking for causes"
         first = self.leading(self._deviations(), self._evidence)
+        for origin, on_top in ({} if self.known is None else self.known.left).items():
+            number, run = self._evidence.run(self.env.board, origin)
+            self.notable.more(number, run, on_top)
+            self._runs |= {(origin, one.first.tick): run.up_to(one.first.tick) for one in on_top}
         todo = [self._mismatch(one) for one in first[: self.allowance.mismatches]]
         left = self.allowance.total
         for number, mismatch in enumerate(todo, 1):
@@ -216,8 +227,10 @@ class CompareSearch:
         return self._follower
 
     def _try_all(self, runs: Iterable[Run]) -> None:
+        times = Counter[str]()
         for origin, steps in runs:
-            self._try(origin, steps)
+            times[origin] += 1  # several are made for one purpose: what is told of one must be of this one
+            self._try(origin if times[origin] == 1 else f"{origin} ({times[origin]})", steps)
         self._complete = True
 
     def _try(self, origin: str, steps: list[ComparedStep]) -> None:
@@ -251,7 +264,7 @@ class CompareSearch:
         for part in undecided:
             self._undecided[part.part, part.because] += 1
         self.deviating(run)
-        self._evidence.add(run, groups, (one.part for one in found.undecided))
+        self._evidence.add(self.coverage.runs, run, groups, (one.part for one in found.undecided))
         every = [*groups.values(), *on_top]
         if every:
             self.notable.add(self.coverage.runs, run, every)

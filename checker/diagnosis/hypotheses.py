@@ -127,6 +127,7 @@ TOLD = {
     "shared": "{old} and {new} share one memory",
     "rounded read": "{old} is read in {new}",
     "rounded assigned": "{old} is assigned in {new}",
+    "rounded together": "{old} are assigned in {new}",
     "rounded products": "every product is in {new}",
     "extra": "there is an extra transition, {new}",
     "entry": "{new} from {old} is tested in the step in which it is entered, too",
@@ -135,7 +136,8 @@ TOLD = {
 OF_THE_WHOLE = ("everywhere", "memory", "buffers", "arrays", COMPARED, ASSIGNED)
 """Sites that are no place in a part."""
 TOLD_ALONE = (
-    "members", "bits", "only", "and-or", "also", "rounded read", "rounded assigned", "rounded products",
+    "members", "bits", "only", "and-or", "also", "rounded read", "rounded assigned", "rounded together",
+    "rounded products",
 )  # fmt: skip
 """Rewrites that are told otherwise than their kind of change."""
 

@@ -78,12 +78,14 @@ class KnownCharts:
             every += self._note(name, whole, run.origin, without)
         return tuple(undecided), tuple(every)
 
-    def recorded(self, runs: EvidenceRuns) -> None:
-        """Runs of the implementation for which the causes were found."""
+    def recorded(self, runs: EvidenceRuns) -> dict[str, list[Deviation]]:
+        """Runs of the implementation for which the causes were found; by their origins what each leaves."""
+        left: dict[str, list[Deviation]] = {}
         for name, part in self._parts.items():
             for run, deviating in zip(runs.runs, runs.parts, strict=True):
                 for block in run.blocks() if name in deviating else ():
-                    self._note(name, part.behaviour(block), run.name)
+                    left.setdefault(run.name, []).extend(self._note(name, part.behaviour(block), run.name))
+        return {origin: some for origin, some in left.items() if some}
 
     def _note(
         self, name: str, whole: Behaviour, origin: str, without: Behaviour | None = None

@@ -116,19 +116,34 @@ class TrialBench:
 
     def rows_behind(self, cone: LogCone) -> int:
         """How many more rows a changed part explains in runs that the drawn one does not decide."""
-        bench, wrong = self.going_on(cone)
-        return sum(min(rows, default=bench.ends[n]) - self._end(n) for n, rows in _behind(self, wrong))
+        return sum(row - self._end(n) for n, row, _ in self._behind(cone, None))
 
     def narrowed(self, cone: LogCone, name: str, value: Raw, values: Sequence[Raw]) -> Sequence[Raw]:
         """Those of some values of an input with which rows are right that one value gets wrong there.
 
         All of them, if no value does better.
         """
-        bench, wrong = self.going_on(cone, (name, value))
-        for number, rows in _behind(self, wrong):
-            if first := min(rows, default=0):
-                values = bench.passing(cone, number, first, name, values) or values
+        for number, row, wrong in self._behind(cone, (name, value)):
+            if wrong:
+                values = self._whole.passing(cone, number, row, name, values) or values
         return values
+
+    def _behind(self, cone: LogCone, parameter: Parameter | None) -> Iterator[tuple[int, int, bool]]:
+        """Of runs that the drawn part does not decide the row behind up to which a changed one explains them.
+
+        And whether the row is wrong, and not just undecided, too.
+        """
+        for number, run in enumerate(self.runs):
+            end = self._end(number)
+            if end == len(run):
+                continue
+            try:
+                rows = self._whole.mismatches(cone, number, parameter)
+                row, mismatch = next(((r, m) for r, m in rows if r >= end or m is None), (len(run), None))
+            except NO_VALUE:
+                continue
+            if row >= end:
+                yield number, row, mismatch is not None
 
     def _end(self, number: int) -> int:
         run = self.runs[number]
@@ -377,12 +392,6 @@ def _explained(
     if outcome is not None:
         tracker.settle(outcome, rows[taken - 1][1], taken)
     return taken
-
-
-def _behind(bench: TrialBench, wrong: Mapping[int, Wrong]) -> Iterator[tuple[int, list[int]]]:
-    """Of runs by their numbers the rows that are wrong behind those that are decided."""
-    for number, rows in wrong.items():
-        yield number, [row for row in rows if row >= bench._end(number)]
 
 
 __all__ = ["NO_VALUE", "Parameter", "Trial", "TrialBench", "with_parameter"]

@@ -3,12 +3,12 @@
 Such is firmware with an integer in place of a float, or with fixed-point numbers in one place.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
-from rovercheck.checker.mutate.rewrites import Rewrite, mapped
+from rovercheck.checker.mutate.rewrites import ASSIGNED, Rewrite, mapped
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Chart
 from rovercheck.spec_model.lang.domain import Bool, Num
@@ -25,7 +25,10 @@ COMPUTING = frozenset({Op.ADD, Op.SUB, Op.MUL})
 
 
 def rounded(part: Chart | Block) -> Iterator[Rewrite]:
-    """Each measured number that a part reads, assigns or multiplies, in fewer digits wherever it does so."""
+    """Each measured number that a part reads, assigns or multiplies, in fewer digits wherever it does so.
+
+    All that it assigns also together.
+    """
     for digits, step in STEPS.items():
         for way, change in WAYS.items():
             to = f"{digits}, {way}"
@@ -33,13 +36,16 @@ def rounded(part: Chart | Block) -> Iterator[Rewrite]:
                 if var.name not in part.written and _finer(var, step):
                     make = partial(mapped, part, partial(_read, var.name, step, change))
                     yield Rewrite("rounded read", f"signal/{var.name}", var.name, to, make)
-            for var in part.written.values():
-                if _finer(var, step):
-                    make = partial(_with_assigned, part, var.name, step, change)
-                    yield Rewrite("rounded assigned", f"everywhere {var.name}", var.name, to, make)
+            assigned = [var.name for var in part.written.values() if _finer(var, step)]
+            for name in assigned:
+                make = partial(_with_assigned, part, (name,), step, change)
+                yield Rewrite("rounded assigned", f"everywhere {name}", name, to, make)
             if any(_multiplied(node, step) for node in _nodes(part)):
                 make = partial(mapped, part, partial(_product, step, change))
                 yield Rewrite("rounded products", COMPUTED, "products", to, make)
+            if len(assigned) > 1:
+                make = partial(_with_assigned, part, assigned, step, change)
+                yield Rewrite("rounded together", ASSIGNED, " and ".join(assigned), to, make)
 
 
 Round = Callable[[Expr, int], Expr]
@@ -115,11 +121,11 @@ def _product(step: Fraction, how: Round, node: Expr) -> Expr:
     return _in_steps(node, step, how) if _multiplied(node, step) else node
 
 
-def _with_assigned(part: Chart | Block, name: str, step: Fraction, how: Round) -> Chart | Block:
+def _with_assigned(part: Chart | Block, names: Collection[str], step: Fraction, how: Round) -> Chart | Block:
     def act(action: Action) -> Action:
         match action:
             case Assign(var, value) if (
-                var.name == name and not isinstance(value, Const) and _finer(value, step)
+                var.name in names and not isinstance(value, Const) and _finer(value, step)
             ):
                 return Assign(var, _in_steps(value, step, how))
             case If(condition, then, otherwise):

@@ -104,8 +104,27 @@ def test_a_fault_behind_a_known_one_is_new_on_top_of_it(
     ]
     assert compared(folder, "Late", "--known", str(known), "--mismatches", "5") is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
-    assert "on top of what is known. (new)" in said
-    assert "what is known differs before, in 499 steps:" in said
+    assert "on top of the other causes. (new)" in said
+    assert "what the other causes explain differs before, in 499 steps:" in said
+
+
+def test_what_shows_behind_another_cause_alone_is_told_at_once(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nothing is known, and the causes found decide the run in which it is the only one to show."""
+    page, written = tmp_path / "page.html", tmp_path / "known.toml"
+    asked = ["--causes", "--html", str(page), "--write-known", str(written)]
+    result = told(folder, capsys, "Late", *asked, "--mismatches", "5")
+    assert sorted(words(result)) == [("new", False), ("new", False), ("new", True)]
+    [new] = [one for one in result["mismatches"] if one["on_top"]]
+    assert (new["origin"], new["runs"], new["small"]) == ("warm.json", 1, True)
+    assert new["arrows"] == ["Heater: On → Pause (transition 2) [after(10 s)]"]
+    assert [one["deviations"] for one in result["causes"] if one["deviations"] == [new["id"]]]
+    assert "its run was not kept" not in page.read_text(encoding="utf-8")
+    assert written.read_text(encoding="utf-8").count("with_causes = true") == 1
+    assert compared(folder, "Late", "--known", str(written)) is Exit.AS_EXPECTED
+    plain = told(folder, capsys, "Late", "--no-causes")
+    assert sorted(words(plain)) == [("new", False), ("new", False)] and plain["undecided"]
 
 
 def test_what_is_left_on_top_of_the_causes_is_written_and_known(folder: Path, known: Path) -> None:

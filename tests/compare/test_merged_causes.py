@@ -8,9 +8,12 @@ import pytest
 
 from rovercheck.checker.adapters import python
 from rovercheck.checker.cli import run
-from rovercheck.checker.compare import cross_check, effort
+from rovercheck.checker.compare import Allowance, cross_check, effort
+from rovercheck.checker.compare.beside import rerun
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.run_follower import RecordedRun
+from rovercheck.checker.compare.search import CompareSearch
+from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.causes import by_itself, cause_groups, followed, split
@@ -142,6 +145,37 @@ def test_a_search_that_the_time_ends_says_so(folder: Path, capsys: pytest.Captur
     assert any("--seconds" in note for note in document["campaign"]["notes"])
     run(asked(folder, "Deaf", "--seconds", "1e-9"))
     assert "not all; more with --seconds S." in " ".join(capsys.readouterr().out.split())
+
+
+ODD = """
+
+class Odd(Heater):
+    "In step 3 one output is wrong, and in a warm room the other one."
+
+    def step(self, given):
+        self.step_number = getattr(self, "step_number", 0) + 1
+        right = super().step(given)
+        if self.step_number != 3:
+            return right
+        return right | ({"Heater": 3} if given["temperature"] >= 20 else {"heating": not right["heating"]})
+"""
+
+
+def test_of_runs_of_one_origin_each_deviation_is_told_in_its_own(folder: Path) -> None:
+    """Fixed runs of one purpose have one name: of two that differ in one step one was told of the other."""
+    with (folder / "firmware.py").open("a", encoding="utf-8") as file:
+        file.write(ODD)
+    env = environment(of_model(load(folder / "heater.py")))
+    firmware = python.start(f"{folder / 'firmware.py'}:Odd", env.board, isolated=False)
+    rooms = (
+        [{"now_ms": 20 * n, "door_open": False, "temperature": t} for n in range(1, 5)] for t in (10, 20)
+    )
+    runs = [("rooms", rerun(env.board, room)) for room in rooms]
+    search = CompareSearch(env, firmware, effort("ci", 0), allowance=Allowance(mismatches=0))
+    found = {one.differences[0].name: one for one in search.run(runs).mismatches}
+    told = {name: (one.origin, one.steps[-1].inputs["temperature"]) for name, one in found.items()}
+    assert told == {"heating": ("rooms", 10), "Heater": ("rooms (2)", 20)}
+    assert all(one.differences[0].actual != one.differences[0].expected for one in found.values())
 
 
 def test_runs_beyond_what_is_kept_are_counted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,15 +1,19 @@
 """The deviations of a comparison by cause, before the first of each is told in full."""
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.result import CompareResult
+from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
+from rovercheck.checker.conformance.follower import Behaviour
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
+from rovercheck.checker.conformance.tracker import UndecidedRow
 from rovercheck.checker.diagnosis.causes import (
     CauseGroups,
+    DeviationCause,
     PartChanges,
     by_itself,
     cause_groups,
@@ -17,7 +21,7 @@ from rovercheck.checker.diagnosis.causes import (
     split,
 )
 from rovercheck.checker.diagnosis.evidence import Evidence
-from rovercheck.checker.diagnosis.known_causes import no_longer_explained, that_hold
+from rovercheck.checker.diagnosis.known_causes import changed, no_longer_explained, that_hold
 from rovercheck.checker.diagnosis.known_charts import KnownCharts
 from rovercheck.spec_model.abstraction import Board
 
@@ -28,8 +32,11 @@ class CauseGrouping:
 
     ``asked``: in every part with a deviation that is not known, or in none; ``None``: where there are
     several.  Known deviations are told apart from the others of their cause: those that ``knows`` says are,
-    unless what explained them, which is among ``causes``, does so no longer.  ``on_top`` are those that are
-    left beside the charts with the causes that were found now.
+    unless what explained them, which is among ``causes``, does so no longer.
+
+    Where the causes found explain a part, runs are followed on beside them, and what deviates there is told,
+    too, by its own cause: it may show in no other place.  ``left`` says of which runs, by their origins, and
+    ``on_top`` are those that are left beside the charts with all causes that were found now.
     """
 
     board: Board
@@ -42,8 +49,11 @@ class CauseGrouping:
     unexplained: frozenset[DeviationScope] = field(default_factory=frozenset)
     charts: KnownCharts | None = None
     on_top: list[Deviation] = field(default_factory=list)
+    left: Mapping[str, Sequence[Deviation]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self._behind: list[Deviation] = []
+        self._found: KnownCharts | None = None
         if self.causes:
             self.charts = KnownCharts(self.board, self.causes, self.records, self.known)
 
@@ -55,7 +65,26 @@ class CauseGrouping:
         groups = self._grouped(drawn, runs, progress)
         more = [] if self.charts is None else [one for one in self.charts.told(drawn) if one.scope.on_top]
         self.groups = replace(groups, causes=(*groups.causes, *by_itself(more).causes))
+        if self.asked and groups.parts:
+            self._follow_on(runs, progress)
         return [cause.first for cause in self.groups.causes]
+
+    def followed(
+        self, run: RecordedRun, found: Behaviour
+    ) -> tuple[tuple[UndecidedRow, ...], tuple[Deviation, ...]]:
+        """What is undecided of a run, and what deviates on top of what is known."""
+        return (found.undecided, ()) if self.charts is None else self.charts.followed(run, found)
+
+    def told(self, found: Sequence[Deviation]) -> Sequence[Deviation]:
+        """All deviations to be told, of ``found`` from the charts as drawn."""
+        own = found if self.charts is None else self.charts.told(found)
+        return [*own, *self._behind]
+
+    def follower(self, part: str) -> RunFollower:
+        """What follows a part with the changes on top of which it deviates."""
+        charts = self._found if any(one.scope.part == part for one in self._behind) else self.charts
+        assert charts is not None, "it has causes"
+        return charts.follower(part)
 
     def _grouped(
         self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
@@ -80,21 +109,59 @@ class CauseGrouping:
             made = _that_hold(evidence, groups.parts) if self.asked else groups.parts
             causes = split(groups.causes, self.known)
             self.groups = replace(groups, causes=causes, left_out=left_out, parts=tuple(made))
-            if self.asked:
-                self.on_top = self._on_top(runs, made)
         return self.groups
 
-    def _on_top(self, runs: EvidenceRuns, made: Sequence[PartChanges]) -> list[Deviation]:
-        """What is left of the deviations beside the charts with the causes found."""
-        name = self.board.name
-        causes = [
-            KnownCause(name, one.part, tuple(change.key for change in one.changes), ())
+    def _follow_on(self, runs: EvidenceRuns, progress: Callable[[str], None]) -> None:
+        """Follow the runs beside the causes found, and look for those of what deviates there."""
+        assert self.groups is not None
+        made = self.groups.parts
+        self._found, left = self._beside(runs, made)
+        self.on_top = list(self._found.on_top())
+        explained = {one.scope for part in made for one in part.deviations}
+        drawn = [one for cause in self.groups.causes for one in cause.deviations if not one.scope.on_top]
+        open_parts = {one.scope.part for one in drawn if one.scope not in explained}
+        self._behind = [one for one in self.on_top if one.scope.part not in open_parts]
+        if not self._behind:
+            return
+        scopes = {one.scope for one in self._behind}
+        self.left = {
+            origin: own for origin, some in left.items() if (own := [d for d in some if d.scope in scopes])
+        }
+        parts = {one.scope.part for one in self._behind}
+        board = self.board
+        for cause in self._causes(one for one in made if one.part in parts):
+            board = changed(board, cause)
+        evidence = followed(board, runs.runs, progress)
+        groups = cause_groups(evidence, [_plain(one) for one in self._behind], parts, self.seconds, progress)
+        places = {_plain(one).scope: one for one in self._behind}
+        causes = [_of(one, places) for one in groups.causes]
+        more = {one.part: one for one in _that_hold(evidence, groups.parts)}
+        every = tuple(
+            replace(one, changes=(*one.changes, *more[one.part].changes)) if one.part in more else one
+            for one in made
+        )
+        self.groups = replace(
+            self.groups,
+            causes=(*self.groups.causes, *causes),
+            cut=(*self.groups.cut, *groups.cut),
+            parts=every,
+        )
+        if more:
+            self.on_top = list(self._beside(runs, every)[0].on_top())
+
+    def _causes(self, made: Iterable[PartChanges]) -> list[KnownCause]:
+        return [
+            KnownCause(self.board.name, one.part, tuple(change.key for change in one.changes), ())
             for one in made
             if one.changes and one.deviations
         ]
-        charts = KnownCharts(self.board, causes, (), self.known)
-        charts.recorded(runs)
-        return list(charts.on_top())
+
+    def _beside(
+        self, runs: EvidenceRuns, made: Iterable[PartChanges]
+    ) -> tuple[KnownCharts, Mapping[str, Sequence[Deviation]]]:
+        """The charts with the causes found, and what is left of each run beside them."""
+        charts = KnownCharts(self.board, self._causes(made), (), self.known)
+        return charts, charts.recorded(runs)
 
     def known(self, one: Deviation) -> bool:
         """Whether a deviation is known, and explained as before."""
@@ -114,6 +181,15 @@ class CauseGrouping:
         if self.asked is False:
             return []
         return [part for part in ways if part and part in new and (self.asked or ways[part] > 1)]
+
+
+def _plain(one: Deviation) -> Deviation:
+    return replace(one, scope=replace(one.scope, on_top=False))
+
+
+def _of(cause: DeviationCause, places: Mapping[DeviationScope, Deviation]) -> DeviationCause:
+    """A cause with the deviations as they are told."""
+    return replace(cause, deviations=tuple(places[one.scope] for one in cause.deviations))
 
 
 def _that_hold(evidence: Evidence, found: Sequence[PartChanges]) -> list[PartChanges]:

@@ -203,7 +203,7 @@ def _checked(
                 progress=lambda search: line.show(_doing(board, search)),
                 watched=watched,
                 leading=lambda found, runs: grouping.leading(found, runs, line.show),
-                known=grouping.charts,
+                known=grouping,
                 elsewhere=elsewhere,
             )
     finally:

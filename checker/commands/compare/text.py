@@ -161,7 +161,7 @@ def _mismatch(number: int, one: DeviationCause, of: CrosscheckReport) -> Iterato
     yield wrapped(f"{often(_met(deviation, of.result), of.result)}", "   ")
     time = f"{mismatch.tick * board.tick_ms / 1000:g} s"
     run = "a small run" if mismatch.small else "that run"
-    others = "what is known differs" if deviation.scope.on_top else "other parts differ"
+    others = "what the other causes explain differs" if deviation.scope.on_top else "other parts differ"
     before = f"; {others} before, in {counted(mismatch.earlier, 'step', 'steps')}"
     yield wrapped(f"in step {mismatch.tick} = {time} of {run}{before if mismatch.earlier else ''}:", "   ")
     yield from _inputs(mismatch)

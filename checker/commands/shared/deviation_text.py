@@ -26,5 +26,5 @@ def headline(deviation: Deviation) -> str:
         else:
             told.append(f"{name} is {actual} instead of {expected}")
     decided = f"{deviation.first.decided_by}: " if deviation.scope.part else ""
-    on_top = ", on top of what is known" if deviation.scope.on_top else ""
+    on_top = ", on top of the other causes" if deviation.scope.on_top else ""
     return f"{decided}{', '.join(told)}{KINDS[deviation.kind]}{on_top}"
