@@ -121,7 +121,7 @@ def test_what_shows_behind_another_cause_alone_is_told_at_once(
     assert new["arrows"] == ["Heater: On → Pause (transition 2) [after(10 s)]"]
     assert [one["deviations"] for one in result["causes"] if one["deviations"] == [new["id"]]]
     assert "its run was not kept" not in page.read_text(encoding="utf-8")
-    assert written.read_text(encoding="utf-8").count("with_causes = true") == 1
+    assert written.read_text(encoding="utf-8").count("\nwith_causes = true") == 1
     assert compared(folder, "Late", "--known", str(written)) is Exit.AS_EXPECTED
     plain = told(folder, capsys, "Late", "--no-causes")
     assert sorted(words(plain)) == [("new", False), ("new", False)] and plain["undecided"]
