@@ -123,6 +123,7 @@ def test_what_shows_behind_another_cause_alone_is_told_at_once(
     assert "its run was not kept" not in page.read_text(encoding="utf-8")
     assert written.read_text(encoding="utf-8").count("\nwith_causes = true") == 1
     assert compared(folder, "Late", "--known", str(written)) is Exit.AS_EXPECTED
+    capsys.readouterr()
     plain = told(folder, capsys, "Late", "--no-causes")
     assert sorted(words(plain)) == [("new", False), ("new", False)] and plain["undecided"]
 
