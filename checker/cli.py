@@ -55,7 +55,7 @@ class VerbTable(MutableMapping[str, click.Command]):
 
     def __init__(self) -> None:
         found = (entry.name for entry in pkgutil.iter_modules(commands.__path__))
-        self._modules = {name.replace("_", "-"): name for name in found if name != "shared"}
+        self._modules = {name.rstrip("_").replace("_", "-"): name for name in found if name != "shared"}
         self._loaded: dict[str, click.Command] = {}
 
     def __getitem__(self, name: str) -> click.Command:

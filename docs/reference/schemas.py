@@ -19,6 +19,7 @@ from rovercheck.checker.commands.diagnose.document import DiagnoseDocument
 from rovercheck.checker.commands.diff.document import DiffDocument
 from rovercheck.checker.commands.doctor.document import DoctorDocument
 from rovercheck.checker.commands.generate_tests.document import GenerateTestsDocument
+from rovercheck.checker.commands.import_.document import ImportDocument
 from rovercheck.checker.commands.list.document import ListDocument
 from rovercheck.checker.commands.mutate.document import MutateDocument
 from rovercheck.checker.commands.requirements.document import RequirementsDocument
@@ -36,6 +37,7 @@ DOCUMENTS: Mapping[str, Any] = {
     "diff-1": DiffDocument,
     "doctor-1": DoctorDocument,
     "graph-2": GraphDocument,
+    "import-1": ImportDocument,
     "list-1": ListDocument,
     "mutate-1": MutateDocument,
     "requirements-1": RequirementsDocument,

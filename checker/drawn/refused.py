@@ -1,0 +1,129 @@
+"""What stands in a file of charts and has no meaning here, each with its place and the way around it."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from rovercheck.checker.drawn.records import (
+    DrawnBlock,
+    DrawnChart,
+    DrawnContent,
+    DrawnData,
+    DrawnModel,
+    DrawnState,
+    DrawnTransition,
+)
+
+
+@dataclass(frozen=True)
+class DrawingNote:
+    """What is to be known of an element: it is ``refused``, or read ``otherwise`` than it is drawn.
+
+    ``where`` is a path of names below the model, ``what`` the element there.
+    """
+
+    kind: Literal["refused", "otherwise"]
+    where: str
+    what: str
+    text: str
+    part: str
+    ssid: int | None = None
+    line: int = 0
+
+    def __str__(self) -> str:
+        number = "" if self.ssid is None else f" (SSID {self.ssid})"
+        return f"{self.where}, {self.what}{number}: {self.text}"
+
+
+BLOCKS: Mapping[str, str] = {
+    "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
+    "ModelReference": "another model. Import that model by itself",
+    "S-Function": "C code, which is not read. Put a MATLAB function in its place",
+    "MATLABFcn": "an interpreted function of MATLAB. Put a MATLAB Function block in its place",
+    "Integrator": "continuous time. Use a discrete-time block",
+    "TransferFcn": "continuous time. Use a discrete-time block",
+    "StateSpace": "continuous time. Use a discrete-time block",
+    "Derivative": "continuous time. Use a discrete-time block",
+}
+"""Blocks without a meaning here, and the way around them."""
+
+
+def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
+    """Everything in a model that is refused, or read otherwise, in the order of the file."""
+    for chart in model.charts:
+        yield from _chart(chart)
+    for block in model.system.every_block():
+        if block.kind in BLOCKS:
+            yield _block(block, f"it is {BLOCKS[block.kind]}.")
+    for one in model.data:
+        text = "it is of all charts together. Give each chart its own, and connect them."
+        yield DrawingNote("refused", model.name, f"the datum {one.name}", text, "", one.ssid, one.line)
+
+
+def _block(block: DrawnBlock, text: str) -> DrawingNote:
+    name = " ".join(block.path.split())
+    return DrawingNote("refused", name, f"{block.kind} block {block.id}", text, "", None, block.line)
+
+
+def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
+    if chart.super_step:
+        yield _note(chart, "the chart", "super step semantics. Switch it off in the properties of the chart")
+    if chart.update == "continuous":
+        yield _note(chart, "the chart", "an update in continuous time. Make it discrete, or inherited")
+    if chart.machine == "Moore":
+        yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
+    yield from _level(chart, chart.content, chart.path)
+    for state in chart.content.every_state():
+        if state.atomic:
+            text = "it is an atomic subchart, which is a chart of its own. Make it a plain subchart"
+            yield _of_state(chart, state, text)
+        if state.action_subsystem:
+            text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
+            yield _of_state(chart, state, text)
+        yield from _level(chart, state.content, f"{chart.path}/{state.name}")
+
+
+def _level(chart: DrawnChart, content: DrawnContent, where: str) -> Iterator[DrawingNote]:
+    kinds = {state.kind for state in content.states} & {"exclusive", "parallel"}
+    if len(kinds) > 1:
+        text = "exclusive and parallel states in one level. Draw one kind of them"
+        yield DrawingNote("refused", where, "its states", f"{text}.", chart.part)
+    for transition in content.transitions:
+        if transition.target is None:
+            text = "it leads nowhere, and is left out."
+            what = f"the transition `{label_of(transition)}`"
+            yield DrawingNote("otherwise", where, what, text, chart.part, transition.ssid, transition.line)
+    for one in content.data:
+        yield from _datum(chart, where, one)
+
+
+def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:
+    why = ""
+    if one.message:
+        why = "it is a message, with a queue. Use an event, or a datum and a counter"
+    elif "fixdt" in one.type or one.type.startswith(("sfix", "ufix")):
+        why = f"{one.type} is a fixed-point type. Use a type of integers, and scale in the chart"
+    elif one.type == "string" or one.type.startswith("stringtype"):
+        why = "it is a string. Use an enumeration"
+    if why:
+        yield DrawingNote(
+            "refused", where, f"the datum {one.name}", f"{why}.", chart.part, one.ssid, one.line
+        )
+
+
+def _note(chart: DrawnChart, what: str, text: str) -> DrawingNote:
+    return DrawingNote("refused", chart.path, what, f"it has {text}.", chart.part)
+
+
+def _of_state(chart: DrawnChart, state: DrawnState, text: str) -> DrawingNote:
+    return DrawingNote(
+        "refused", chart.path, f"the state {state.name}", f"{text}.", chart.part, state.ssid, state.line
+    )
+
+
+def label_of(transition: DrawnTransition) -> str:
+    """The label of a transition in one line."""
+    return " ".join(transition.label.split()) or "?"
+
+
+__all__ = ["DrawingNote", "label_of", "notes_of"]

@@ -1,0 +1,1 @@
+"""Simulink's files: packages of models (.slx) and data dictionaries (.sldd), classes and scripts (.m)."""

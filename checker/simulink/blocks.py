@@ -1,0 +1,108 @@
+"""Block diagrams: systems of blocks with their parameters, and the signals between their ports."""
+
+import re
+from collections.abc import Iterator
+
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnLine, DrawnSystem, path_of
+from rovercheck.checker.simulink.package import SimulinkPackage
+from rovercheck.checker.simulink.xml import MOST_DEPTH, XmlElement
+from rovercheck.spec_model.lang.errors import ModelError
+
+_END = re.compile(r"([\w:.]+)#(in|out|enable|trigger|ifaction|state|reset|event)(?::(\d{1,6}))?")
+_EDGES = re.compile(r"-?\d+(?:\.\d+)?")
+CHARTS = ("Chart", "MATLAB Function", "Truth Table", "State Transition Table")
+"""What ``SFBlockType`` is of blocks that are charts."""
+CONTROL = {"enable": "EnablePort", "trigger": "TriggerPort", "ifaction": "ActionPort"}
+MOST_SYSTEMS = 100_000
+
+
+class DiagramReader:
+    """Reads the systems of a package, each once: a system that holds itself is refused."""
+
+    def __init__(self, package: SimulinkPackage) -> None:
+        self._package = package
+        self._open: list[str] = []
+        self._read = 0
+
+    def root(self, element: XmlElement, part: str) -> DrawnSystem:
+        """The diagram of a model, whose element holds or names its system.  Raises ``ModelError``."""
+        system = element.child("System")
+        if system is None:
+            place = self._package.place(part)
+            raise ModelError(f"{place}: the model has no <System>. Save the model again in Simulink.")
+        return self._system(system, part, ())
+
+    def _system(self, element: XmlElement, part: str, path: tuple[str, ...]) -> DrawnSystem:
+        reference = element.attributes.get("Ref")
+        if reference is not None:
+            return self._referenced(reference, path)
+        blocks = tuple(self._block(one, part, path) for one in element.all("Block"))
+        lines = tuple(line for one in element.all("Line") for line in self._lines(one, part))
+        return DrawnSystem(blocks, lines, part)
+
+    def _referenced(self, reference: str, path: tuple[str, ...]) -> DrawnSystem:
+        part = f"simulink/systems/{reference}.xml"
+        self._read += 1
+        if part in self._open or len(self._open) > MOST_DEPTH or self._read > MOST_SYSTEMS:
+            raise ModelError(
+                f"{self._package.place(part)}: the system is in itself, or referred to too often. Save the "
+                "model again in Simulink."
+            )
+        self._open.append(part)
+        found = self._system(self._package.xml(part), part, path)
+        self._open.pop()
+        return found
+
+    def _block(self, one: XmlElement, part: str, path: tuple[str, ...]) -> DrawnBlock:
+        name = one.attributes.get("Name", "")
+        within = (*path, name)
+        system = one.child("System")
+        parameters = {p.attributes.get("Name", ""): p.text for p in one.all("P")}
+        counts = one.child("PortCounts")
+        if counts is not None:
+            parameters |= {f"ports {key}": value for key, value in counts.attributes.items()}
+        signals: dict[str, str] = {}
+        for ports in one.all("PortProperties"):
+            for port in ports.all("Port"):
+                if port.attributes.get("Type") == "out" and (signal := port.property_of("Name")):
+                    signals[port.attributes.get("Index", "1")] = signal
+        edges = [float(edge) for edge in _EDGES.findall(parameters.get("Position", ""))[:4]]
+        left, top, right, bottom = edges if len(edges) == 4 else (0.0,) * 4
+        return DrawnBlock(
+            id=one.attributes.get("SID", ""),
+            kind=one.attributes.get("BlockType", ""),
+            name=name,
+            path=path_of(*within),
+            parameters=parameters,
+            signals=signals,
+            system=None if system is None else self._system(system, part, within),
+            chart=path_of(*within) if parameters.get("SFBlockType") in CHARTS else "",
+            rectangle=(left, top, right - left, bottom - top),
+            line=one.line,
+        )
+
+    def _lines(self, one: XmlElement, part: str) -> Iterator[DrawnLine]:
+        """A signal with all its branches; one that is not connected at an end is none."""
+        source = self._end(one.property_of("Src"), one, part)
+        if source is None:
+            return
+        for branch in one.every():
+            if branch.tag in ("Line", "Branch"):
+                target = self._end(branch.property_of("Dst"), branch, part)
+                if target is not None:
+                    yield DrawnLine(source[0], int(source[2]), target[0], target[2] or target[1])
+
+    def _end(self, text: str, one: XmlElement, part: str) -> tuple[str, str, str] | None:
+        """The block, the kind of port and its number."""
+        if not text:
+            return None
+        found = _END.fullmatch(text.strip())
+        if found is None or (found[2] in ("in", "out")) != (found[3] is not None):
+            raise ModelError(
+                f"{self._package.place(part)}, line {one.line}: a signal ends at {text[:40]!r}, which is no "
+                "port. Save the model again in Simulink."
+            )
+        return found[1], found[2], found[3] or ("1" if found[2] == "state" else "")
+
+
+__all__ = ["CONTROL", "DiagramReader"]

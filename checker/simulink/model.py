@@ -1,0 +1,150 @@
+"""A model of Simulink: its package, and the types and values beside it."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnModel, DrawnSystem
+from rovercheck.checker.simulink.blocks import DiagramReader
+from rovercheck.checker.simulink.charts import chart_of, charts_in, data_of
+from rovercheck.checker.simulink.dictionary import Definitions, files_beside
+from rovercheck.checker.simulink.package import SimulinkPackage
+from rovercheck.checker.simulink.xml import XmlElement
+from rovercheck.spec_model.lang.errors import ModelError
+
+DIAGRAM = "simulink/blockdiagram.xml"
+MACHINE = "simulink/stateflow/machine.xml"
+ALL_CHARTS = "simulink/stateflow.xml"
+ENUM = "Enum:"
+
+
+def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
+    """The model in a file ``.slx``, with the files that a user names ``beside`` it.
+
+    Its data dictionary, and the classes of enumerations that its charts use, are found in its folder.
+    Raises ``ModelError``, with the part and the line, for what cannot be read.
+    """
+    package = SimulinkPackage(path)
+    if DIAGRAM not in package:
+        raise ModelError(
+            f"{path}: it has no part {DIAGRAM}, and so is no model of Simulink. Name a file .slx; a text "
+            "file .mdl is saved as one with `save_system` or File, Save As."
+        )
+    top = package.xml(DIAGRAM)
+    model = top if top.tag in ("Model", "Library") else top.child("Model", "Library")
+    if model is None:
+        raise ModelError(f"{package.place(DIAGRAM)}: it holds no model. Save the model again in Simulink.")
+    system = DiagramReader(package).root(model, DIAGRAM)
+    charts, data = _charts(package, top)
+    definitions = _definitions(path, model, charts, system, beside)
+    solver = _solver(package, model)
+    return DrawnModel(
+        name=path.stem,
+        format="simulink",
+        release=_release(package),
+        step=solver.get("FixedStep", ""),
+        solver=solver.get("SolverName", solver.get("Solver", "")),
+        system=system,
+        charts=charts,
+        enumerations=tuple(definitions.enumerations[name] for name in sorted(definitions.enumerations)),
+        buses=tuple(definitions.buses[name] for name in sorted(definitions.buses)),
+        parameters=tuple(definitions.parameters[name] for name in sorted(definitions.parameters)),
+        data=data,
+        files=(str(path), *definitions.files),
+    )
+
+
+# --- charts ------------------------------------------------------------------------------------------------
+
+
+def _charts(
+    package: SimulinkPackage, top: XmlElement
+) -> tuple[tuple[DrawnChart, ...], tuple[DrawnData, ...]]:
+    """The charts in the order of the file, and the data of all together: parts of their own, or one."""
+    if MACHINE in package:
+        part, root = MACHINE, package.xml(MACHINE)
+    elif ALL_CHARTS in package:
+        part, root = ALL_CHARTS, package.xml(ALL_CHARTS)
+    else:
+        part = DIAGRAM
+        found = next((one for one in top.every() if one.tag == "Stateflow"), None)
+        if found is None:
+            return (), ()
+        root = found
+    paths = _instances(root)
+    charts = []
+    for one in charts_in(root):
+        own, element = part, one
+        if reference := one.attributes.get("Ref"):
+            own = f"simulink/stateflow/{reference}.xml"
+            element = package.xml(own)
+        path = paths.get(element.attributes.get("id", "")) or element.property_of("name")
+        charts.append(chart_of(element, own, path, package.place(own)))
+    place = package.place(part)
+    data = (one for m in root.all("machine") for c in m.all("Children") for one in c.all("data"))
+    return tuple(charts), tuple(data_of(one, place) for one in data)
+
+
+def _instances(root: XmlElement) -> Mapping[str, str]:
+    """Of the id of a chart the path of its block."""
+    return {one.property_of("chart"): one.property_of("name") for one in root.all("instance")}
+
+
+# --- beside the model --------------------------------------------------------------------------------------
+
+
+def _definitions(
+    path: Path,
+    model: XmlElement,
+    charts: Sequence[DrawnChart],
+    system: DrawnSystem,
+    beside: Iterable[Path],
+) -> Definitions:
+    found = Definitions()
+    dictionary = Path(model.property_of("DataDictionary")).name
+    if dictionary and (path.parent / dictionary).is_file():
+        found.read_dictionary(path.parent / dictionary)
+    for file in beside:
+        if file.suffix == ".sldd":
+            found.read_dictionary(file)
+        else:
+            found.read_text(file)
+    missing = sorted(set(_enumerations(charts, system, found)) - found.enumerations.keys())
+    for file in files_beside(path, missing):
+        found.read_text(file)
+    return found
+
+
+def _enumerations(charts: Iterable[DrawnChart], system: DrawnSystem, found: Definitions) -> Iterator[str]:
+    """The names of the enumerations that data, elements of buses and blocks have as types."""
+    types = [one.type for chart in charts for level in chart.content.every_level() for one in level.data]
+    types += (one.type for bus in found.buses.values() for one in bus.elements)
+    types += (block.parameters.get("OutDataTypeStr", "") for block in system.every_block())
+    yield from (one.removeprefix(ENUM).strip() for one in types if one.startswith(ENUM))
+
+
+def _solver(package: SimulinkPackage, model: XmlElement) -> Mapping[str, str]:
+    """The properties of the solver, from the configuration that is active."""
+    info = "simulink/configSetInfo.xml"
+    active = "simulink/configSet0.xml"
+    if info in package:
+        for one in package.xml(info).all("ConfigSet"):
+            if one.attributes.get("Active") == "true" and (name := one.attributes.get("PartName")):
+                active = name.lstrip("/")
+    root = package.xml(active) if active in package else model
+    for one in root.every():
+        if one.attributes.get("ClassName") == "Simulink.SolverCC":
+            return {p.attributes.get("Name", ""): p.text.strip() for p in one.all("P")}
+    return {}
+
+
+def _release(package: SimulinkPackage) -> str:
+    for part, tag in (("mwcoreProperties", "matlabRelease"), ("coreProperties", "cp:version")):
+        name = f"metadata/{part}.xml"
+        if name in package:
+            for one in package.xml(name).every():
+                if one.tag == tag:
+                    return one.text.strip()
+    return ""
+
+
+__all__ = ["read_model"]

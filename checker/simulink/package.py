@@ -1,0 +1,96 @@
+"""A package of Simulink: a ZIP file of XML parts, read in memory, within bounds, and never unpacked."""
+
+import zlib
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path, PurePosixPath
+from struct import error as StructError
+from zipfile import BadZipFile, LargeZipFile, ZipFile, ZipInfo
+
+from rovercheck.checker.simulink.xml import XmlElement, parsed
+from rovercheck.spec_model.lang.errors import ModelError
+
+MOST_BYTES = 128 << 20
+"""Bytes of a package, and of all of its parts that are read, unpacked."""
+MOST_PARTS = 20_000
+ONCE_MORE = "Save the model again in Simulink."
+
+BROKEN = (
+    BadZipFile, LargeZipFile, zlib.error, StructError, EOFError, OSError, NotImplementedError, RuntimeError,
+    ValueError, OverflowError,
+)  # fmt: skip
+"""What reading a damaged ZIP file raises, one that is encrypted or packed by an unknown method too."""
+
+
+class SimulinkPackage:
+    """The parts of a package by their names.  Raises ``ModelError`` for a file that is none."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._left = MOST_BYTES
+        try:
+            with path.open("rb") as file:
+                data = file.read(MOST_BYTES + 1)
+        except OSError as error:
+            raise ModelError(f"{path}: {error.strerror}. Name a file of Simulink, .slx or .sldd.") from error
+        if len(data) > MOST_BYTES:
+            raise ModelError(f"{path}: more than {MOST_BYTES >> 20} MiB are not read.")
+        try:
+            self._zip = ZipFile(BytesIO(data))
+            infos = self._zip.infolist()
+        except BROKEN as error:
+            raise ModelError(f"{path}: it is no package of Simulink: {_said(error)}. {ONCE_MORE}") from error
+        if len(infos) > MOST_PARTS:
+            raise ModelError(f"{path}: more than {MOST_PARTS:,} parts in one package are not read.")
+        self._infos: dict[str, ZipInfo] = {}
+        for info in infos:
+            self._add(info)
+
+    def _add(self, info: ZipInfo) -> None:
+        name = info.filename.removeprefix("/")
+        parts = PurePosixPath(name).parts
+        if ".." in parts or "\\" in name or not name.isprintable() or ":" in name:
+            raise ModelError(f"{self.path}: {name!r} is no name of a part. {ONCE_MORE}")
+        if name in self._infos:
+            raise ModelError(f"{self.path}: the part {name} is there twice. {ONCE_MORE}")
+        self._infos[name] = info
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._infos
+
+    def names(self, start: str = "") -> Iterator[str]:
+        """The names of the parts that begin so."""
+        return (name for name in self._infos if name.startswith(start))
+
+    def place(self, name: str) -> str:
+        """How a part is named in a message."""
+        return f"{self.path.name}, part {name}"
+
+    def data(self, name: str) -> bytes:
+        """A part as bytes.  Raises ``ModelError`` for one that is missing, damaged or too large."""
+        info = self._infos.get(name)
+        if info is None:
+            raise ModelError(f"{self.place(name)}: it is missing. {ONCE_MORE}")
+        try:
+            with self._zip.open(info) as file:
+                found = file.read(self._left + 1)
+        except BROKEN as error:
+            raise ModelError(f"{self.place(name)}: it is damaged: {_said(error)}. {ONCE_MORE}") from error
+        if len(found) > self._left:
+            raise ModelError(
+                f"{self.place(name)}: more than {MOST_BYTES >> 20} MiB of parts, unpacked, are not read."
+            )
+        self._left -= len(found)
+        return found
+
+    def xml(self, name: str) -> XmlElement:
+        """The root element of a part.  Raises ``ModelError``."""
+        return parsed(self.data(name), self.place(name))
+
+
+def _said(error: BaseException) -> str:
+    text = str(error).strip().rstrip(".")
+    return text if text.isprintable() and text else type(error).__name__
+
+
+__all__ = ["SimulinkPackage"]
