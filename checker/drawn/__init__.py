@@ -1,0 +1,1 @@
+"""Charts drawn elsewhere: what their files hold, and what it means."""
