@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage
 from rovercheck.checker.drawn.grammar.tokens import (
     MOST_NESTED,
+    RESERVED_IN_C,
     RESERVED_IN_MATLAB,
     Token,
     TokenKind,
@@ -98,6 +99,7 @@ class Cursor:
     def expect(self, sign: str, why: str) -> Token:
         """Take this sign, which must be next."""
         if not self.at_sign(sign):
+            self.refuse_equals()
             self.fail(f"{self.shown()} stands where '{sign}' must: {why}")
         return self.advance()
 
@@ -105,12 +107,19 @@ class Cursor:
         """Take a name that is no keyword; ``what`` says of what."""
         token = self.token
         if token.kind is not TokenKind.NAME or self.is_keyword(token):
-            self.fail(f"{self.shown()} stands where the name of {what} must")
+            because = ", and is a keyword" if token.kind is TokenKind.NAME else ""
+            self.fail(f"{self.shown()} stands where the name of {what} must{because}")
         return self.advance()
 
     def is_keyword(self, token: Token) -> bool:
-        """Whether the token is a word that MATLAB reserves."""
-        return self.matlab and token.kind is TokenKind.NAME and token.text in RESERVED_IN_MATLAB
+        """Whether the token is a word that the language reserves."""
+        reserved = RESERVED_IN_MATLAB if self.matlab else RESERVED_IN_C
+        return token.kind is TokenKind.NAME and token.text in reserved
+
+    def refuse_equals(self) -> None:
+        """Raise an error if ``=`` is next, where a comparison may be meant."""
+        if self.at_sign("="):
+            self.fail("'=' assigns, and nothing can be assigned here: to compare, write '=='")
 
     def shown(self) -> str:
         """What is next, for a message."""
@@ -153,5 +162,6 @@ def read_whole(text: str, language: ActionLanguage, read: Callable[[Cursor], T],
     found = read(cursor)
     cursor.skip_lines()
     if not cursor.at_end():
+        cursor.refuse_equals()
         cursor.fail(f"{cursor.shown()} stands behind the end of {what}")
     return found

@@ -64,6 +64,8 @@ def _functions(cursor: Cursor) -> tuple[ScriptFunction, ...]:
             cursor.fail(f"{cursor.shown()} stands where 'function' must: {why}")
         at = cursor.advance().at
         signature = _signature(cursor)
+        if cursor.behind_lines().text == "arguments":
+            cursor.fail("a block of arguments is not supported: leave it out", cursor.behind_lines().at)
         body = statements(cursor, lambda here: here.at_word("function", "end"))
         if cursor.at_word("end"):
             cursor.advance()

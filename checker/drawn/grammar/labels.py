@@ -135,6 +135,8 @@ def _at_section(cursor: Cursor) -> bool:
         if tokens[position].text == ":":
             return True
         if tokens[position].text != ",":
+            if tokens[position].kind in (TokenKind.NAME, TokenKind.NUMBER):
+                cursor.fail(f"'{word.text}' begins a section only with a colon before its actions", word.at)
             return False
         position += 1
     return False

@@ -15,7 +15,7 @@ COLON: RangeOperator = ":"
 class OperatorTable:
     """The operators of a language by their signs.
 
-    ``infix`` says how strong each binds, all to the left; ``power`` binds stronger than all of them and than
+    Of signs with one meaning the first is the one to write.  ``infix`` says how strong each binds, all to the left; ``power`` binds stronger than all of them and than
     ``prefix``; ``assignment`` says what ``+=`` and its like do besides (nothing, of ``=``).
     """
 
@@ -27,6 +27,7 @@ class OperatorTable:
 
 _COMPARISONS: dict[str, BinaryOperator] = {"<": "<", "<=": "<=", ">": ">", ">=": ">="}
 _EQUALITIES: dict[str, BinaryOperator] = {"==": "==", "~=": "!=", "!=": "!="}
+_C_EQUALITIES: dict[str, BinaryOperator] = {"==": "==", "!=": "!=", "~=": "!=", "<>": "!="}
 _PLAIN: dict[str, BinaryOperator | None] = {"=": None, "+=": "+", "-=": "-", "*=": "*", "/=": "/"}
 
 
@@ -63,7 +64,7 @@ _C = OperatorTable(
         {"&&": "&&"},
         {"|": "|"},
         {"&": "&"},
-        _EQUALITIES | {"<>": "!="},
+        _C_EQUALITIES,
         _COMPARISONS,
         {"<<": "<<", ">>": ">>"},
         {"+": "+", "-": "-"},
@@ -80,7 +81,7 @@ _C_BITS = OperatorTable(
         {"|": "bit|"},
         {"^": "bit^"},
         {"&": "bit&"},
-        _EQUALITIES | {"<>": "!="},
+        _C_EQUALITIES,
         _COMPARISONS,
         {"<<": "<<", ">>": ">>"},
         {"+": "+", "-": "-"},

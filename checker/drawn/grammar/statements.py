@@ -26,17 +26,20 @@ from rovercheck.checker.drawn.grammar.syntax import (
     ActionLanguage,
     Applied,
     CellArray,
+    ColonRange,
     Expression,
     Indexed,
+    Matrix,
     Member,
     Name,
     UnaryOperation,
 )
-from rovercheck.checker.drawn.grammar.tokens import RESERVED_IN_C, Token, TokenKind
+from rovercheck.checker.drawn.grammar.tokens import Token, TokenKind
 
 __all__ = ["parse_statements", "statements"]
 
 Statements: TypeAlias = tuple[ActionStatement, ...]
+_WORDS = (TokenKind.NAME, TokenKind.NUMBER, TokenKind.TEXT)
 _INSTEAD = {
     "function": "a function is a function of the chart",
     "end": "it ends no 'if', 'for', 'while' or 'switch' that stands before it",
@@ -69,8 +72,9 @@ def _ended(cursor: Cursor, until: Callable[[Cursor], bool]) -> None:
     """Refuse what cannot stand behind a statement."""
     if cursor.token.kind in (TokenKind.LINE, TokenKind.END) or cursor.at_sign(";", ",") or until(cursor):
         return
+    cursor.refuse_equals()
     before = cursor.tokens[cursor.position - 1]
-    if cursor.matlab and before.kind is TokenKind.NAME and cursor.token.blank:
+    if cursor.matlab and before.kind is TokenKind.NAME and cursor.token.kind in _WORDS:
         cursor.fail(
             f"'{before.text}' is followed by {cursor.shown()}: commands with words behind them have no "
             f"meaning in a chart: write a call, as in {before.text}(...), or an operator between them",
@@ -82,7 +86,7 @@ def _ended(cursor: Cursor, until: Callable[[Cursor], bool]) -> None:
 def _statement(cursor: Cursor) -> ActionStatement:
     token = cursor.token
     if token.kind is TokenKind.NAME:
-        if not cursor.matlab and token.text in RESERVED_IN_C:
+        if not cursor.matlab and cursor.is_keyword(token):
             cursor.fail(f"actions in C have no '{token.text}': draw it as transitions between junctions")
         if cursor.is_keyword(token):
             with cursor.nested(token.at):
@@ -104,6 +108,12 @@ def _statement(cursor: Cursor) -> ActionStatement:
         cursor.advance()
         target = _target(cursor, left)
         return Assignment((target,), expression(cursor), table[sign.text], sign.text == ":=", token.at)
+    if isinstance(left, ColonRange | Matrix):
+        cursor.fail(
+            "a range or a matrix alone does nothing: give it to some data, or, if a section of a state was "
+            "meant, begin it with entry, during, exit, bind or on",
+            token.at,
+        )
     return Evaluated(left, token.at)
 
 
