@@ -46,7 +46,8 @@ def compared_with(model: DrawnModel, log: Path) -> RecordingComparison:
     runner = _runner(model)
     inputs = list(runner.inputs())
     found: list[RowDifference] = []
-    rows, outputs, missing = 0, (), ()
+    rows = 0
+    outputs, missing = tuple[str, ...](), tuple[str, ...]()
     for line, given in _rows(log, inputs):
         try:
             made = runner.step({name: given[name] for name in inputs})
@@ -87,15 +88,15 @@ def _rows(log: Path, inputs: Sequence[str]) -> Iterator[tuple[int, dict[str, flo
             table = csv.reader(file)
             head = [csv_plain(name).strip() for name in next(table, [])]
             if lacking := [name for name in inputs if name not in head]:
-                raise UsageError(
-                    f"{log}: it has no column {lacking[0]}; write one for each of {', '.join(inputs)}."
-                )
+                wanted = ", ".join(inputs)
+                raise UsageError(f"{log}: it has no column {lacking[0]}; write one for each of {wanted}.")
             for row in table:
+                line = table.line_num
+                if row and len(row) < len(head):
+                    raise UsageError(f"{log}, line {line}: {len(row)} cells, and {len(head)} columns.")
                 if row:
-                    yield (
-                        table.line_num,
-                        {n: _number(log, table.line_num, n, c) for n, c in zip(head, row, strict=False)},
-                    )
+                    cells = zip(head, row, strict=False)
+                    yield line, {name: _number(log, line, name, cell) for name, cell in cells}
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise UsageError(f"{log}: {error}. Write a table of comma-separated values.") from error
 

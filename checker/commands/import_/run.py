@@ -112,16 +112,13 @@ def _compared(found: RecordingComparison | None, log: Path | None) -> Iterator[s
         return
     rows = counted(found.rows, "row", "rows")
     if not found.differences:
-        yield _wrapped(
-            f"✓ {log.name}: in {rows} the model gives what is recorded: {', '.join(found.outputs)}."
-        )
+        outputs = ", ".join(found.outputs)
+        yield _wrapped(f"✓ {log.name}: in {rows} the model gives what is recorded: {outputs}.")
     else:
         yield _wrapped(f"✗ {log.name}: {len(found.differences)} of {rows} differ.")
     for one in found.differences[:MOST_SHOWN]:
-        values = ", ".join(
-            f"{name} is {given:g} and recorded {was:g}" for name, (was, given) in one.values.items()
-        )
-        yield _wrapped(f"row {one.row} (line {one.line}): {values}", "  ")
+        told = (f"{name} is {given:g} and recorded {was:g}" for name, (was, given) in one.values.items())
+        yield _wrapped(f"row {one.row} (line {one.line}): {', '.join(told)}", "  ")
         yield from (_wrapped(f"takes {text}", "    ") for text in one.fired)
     if len(found.differences) > MOST_SHOWN:
         yield f"  and {len(found.differences) - MOST_SHOWN} more rows; --json has them all"
