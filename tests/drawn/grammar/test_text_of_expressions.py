@@ -95,8 +95,6 @@ def minus_one(expression: Expression) -> Expression:
 def composed(language: ActionLanguage, inner: SearchStrategy[Expression]) -> SearchStrategy[Expression]:
     table = operators_of(language)
     between = {sign for _, sign in table.infix.values() if sign != COLON} | set(table.power.values())
-        table.power.values()
-    )
     before: set[UnaryOperator] = set(table.prefix.values())
     if language is MATLAB:
         before |= {"'", ".'"}
