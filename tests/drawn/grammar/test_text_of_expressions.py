@@ -144,7 +144,7 @@ def test_blanks_lines_and_comments_between_words_change_nothing(
     for token in tokens_of(text, language):
         square += {"[": 1, "{": 1, "]": -1, "}": -1}.get(token.text, 0) if token.kind is TokenKind.SIGN else 0
         blank = " " if token.blank else ""
-        keeps = token.text in ("'", ".'", ".") or (language is MATLAB and square)
+        keeps = token.text in ("'", ".'", ".", "%%") or (language is MATLAB and square)
         noisy.append(blank + ("" if keeps else data.draw(NOISE)) + token.text)
     assert parse_expression("".join(noisy), language) == tree
 
