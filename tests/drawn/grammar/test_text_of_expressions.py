@@ -122,7 +122,7 @@ def test_every_operator_is_drawn() -> None:
 
 
 @pytest.mark.parametrize("language", ActionLanguage)
-@examples(400)
+@examples(240)
 @given(st.data())
 def test_round_trip(language: ActionLanguage, data: st.DataObject) -> None:
     tree = data.draw(expressions(language))
@@ -133,7 +133,7 @@ NOISE = st.sampled_from(["", " ", "\t", "  ", " ... on\n", " /* (' */ ", " % ' (
 
 
 @pytest.mark.parametrize("language", ActionLanguage)
-@examples(200)
+@examples(120)
 @given(st.data())
 def test_blanks_lines_and_comments_between_words_change_nothing(
     language: ActionLanguage, data: st.DataObject
