@@ -162,8 +162,16 @@ def files_beside(model: Path, names: Sequence[str]) -> Iterator[Path]:
     """The classes of enumerations beside a model that have one of some names."""
     for name in names:
         file = model.parent / f"{name}.m"
-        if name.isidentifier() and file.is_file():
+        if name.isidentifier() and is_file(file):
             yield file
 
 
-__all__ = ["Definitions", "default_of", "files_beside"]
+def is_file(path: Path) -> bool:
+    """Whether it is there: a name out of a file may be none that there can be."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+__all__ = ["Definitions", "default_of", "files_beside", "is_file"]

@@ -6,7 +6,7 @@ from pathlib import Path
 from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnModel, DrawnSystem
 from rovercheck.checker.simulink.blocks import DiagramReader
 from rovercheck.checker.simulink.charts import chart_of, charts_in, data_of
-from rovercheck.checker.simulink.dictionary import Definitions, files_beside
+from rovercheck.checker.simulink.dictionary import Definitions, files_beside, is_file
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
 from rovercheck.spec_model.lang.errors import ModelError
@@ -101,7 +101,7 @@ def _definitions(
 ) -> Definitions:
     found = Definitions()
     dictionary = Path(model.property_of("DataDictionary")).name
-    if dictionary and (path.parent / dictionary).is_file():
+    if dictionary and is_file(path.parent / dictionary):
         found.read_dictionary(path.parent / dictionary)
     for file in beside:
         if file.suffix == ".sldd":

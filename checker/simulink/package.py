@@ -5,21 +5,24 @@ from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path, PurePosixPath
 from struct import error as StructError
-from zipfile import BadZipFile, LargeZipFile, ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, LargeZipFile, ZipFile, ZipInfo
 
-from rovercheck.checker.simulink.xml import XmlElement, parsed
+from rovercheck.checker.simulink.xml import MOST_ELEMENTS, XmlElement, parsed
 from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_BYTES = 128 << 20
 """Bytes of a package, and of all of its parts that are read, unpacked."""
 MOST_PARTS = 20_000
+ENTRY = b"PK\x01\x02"
+"""What an entry of the list of parts begins with."""
 ONCE_MORE = "Save the model again in Simulink."
 
+ENCRYPTED = 0x1
 BROKEN = (
     BadZipFile, LargeZipFile, zlib.error, StructError, EOFError, OSError, NotImplementedError, RuntimeError,
     ValueError, OverflowError,
 )  # fmt: skip
-"""What reading a damaged ZIP file raises, one that is encrypted or packed by an unknown method too."""
+"""What reading a damaged ZIP file raises."""
 
 
 class SimulinkPackage:
@@ -35,21 +38,23 @@ class SimulinkPackage:
             raise ModelError(f"{path}: {error.strerror}. Name a file of Simulink, .slx or .sldd.") from error
         if len(data) > MOST_BYTES:
             raise ModelError(f"{path}: more than {MOST_BYTES >> 20} MiB are not read.")
+        self._elements = MOST_ELEMENTS
+        if data.count(ENTRY) > MOST_PARTS:  # before there is an object for each
+            raise ModelError(f"{path}: more than {MOST_PARTS:,} parts in one package are not read.")
         try:
             self._zip = ZipFile(BytesIO(data))
             infos = self._zip.infolist()
         except BROKEN as error:
             raise ModelError(f"{path}: it is no package of Simulink: {_said(error)}. {ONCE_MORE}") from error
-        if len(infos) > MOST_PARTS:
-            raise ModelError(f"{path}: more than {MOST_PARTS:,} parts in one package are not read.")
         self._infos: dict[str, ZipInfo] = {}
         for info in infos:
             self._add(info)
 
     def _add(self, info: ZipInfo) -> None:
-        name = info.filename.removeprefix("/")
-        parts = PurePosixPath(name).parts
-        if ".." in parts or "\\" in name or not name.isprintable() or ":" in name:
+        name = info.filename
+        path = PurePosixPath(name)
+        odd = "\\" in name or ":" in name or not name.isprintable()
+        if odd or path.is_absolute() or ".." in path.parts:
             raise ModelError(f"{self.path}: {name!r} is no name of a part. {ONCE_MORE}")
         if name in self._infos:
             raise ModelError(f"{self.path}: the part {name} is there twice. {ONCE_MORE}")
@@ -71,6 +76,11 @@ class SimulinkPackage:
         info = self._infos.get(name)
         if info is None:
             raise ModelError(f"{self.place(name)}: it is missing. {ONCE_MORE}")
+        if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED) or info.flag_bits & ENCRYPTED:
+            raise ModelError(
+                f"{self.place(name)}: it is encrypted, or packed by a method that is not Simulink's. "
+                f"{ONCE_MORE}"
+            )
         try:
             with self._zip.open(info) as file:
                 found = file.read(self._left + 1)
@@ -85,7 +95,9 @@ class SimulinkPackage:
 
     def xml(self, name: str) -> XmlElement:
         """The root element of a part.  Raises ``ModelError``."""
-        return parsed(self.data(name), self.place(name))
+        root, number = parsed(self.data(name), self.place(name), self._elements)
+        self._elements -= number
+        return root
 
 
 def _said(error: BaseException) -> str:
