@@ -12,6 +12,8 @@ from rovercheck.checker.simulink.xml import XmlElement
 from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_DICTIONARIES = 100
+LONGEST_NAME = 255
+"""Letters of the name of a file."""
 MOST_TEXT = 4 << 20
 """Bytes of a class or a script."""
 
@@ -47,7 +49,7 @@ class Definitions:
                 if name.endswith(".xml") and name.startswith(("data/chunk", "dictionary/")):
                     root = package.xml(name)
                     self._entries(root, file.name, package.place(name))
-                    waiting += (file.parent / other for other in _others(root))
+                    waiting += (file.parent / other for other in _others(root, package.place(name)))
 
     def _entries(self, root: XmlElement, file: str, place: str) -> None:
         for entry in (one for one in root.every() if one.attributes.get("Class") == "DD.ENTRY"):
@@ -85,13 +87,18 @@ class Definitions:
                 self.parameters[name] = DrawnParameter(name, value, "", path.name)
 
 
-def _others(root: XmlElement) -> Iterator[str]:
+def _others(root: XmlElement, place: str) -> Iterator[str]:
     """The names of dictionaries that one refers to, without folders: they are beside it."""
     for one in root.every():
         name = one.text.strip() or one.attributes.get("DictionaryName", "")
         if "Reference" in one.attributes.get("Class", "") or one.tag in ("Reference", "DictionaryReference"):
             name = name or one.property_of("Name") or one.property_of("DictionaryName")
             if name.endswith(".sldd"):
+                if len(name) > LONGEST_NAME or not name.isprintable():
+                    raise ModelError(
+                        f"{place}, line {one.line}: it refers to the dictionary {name[:40]!r}, which is no "
+                        "name of a file. Save the dictionary again in Simulink."
+                    )
                 yield Path(name).name
 
 
@@ -102,8 +109,8 @@ def _enumeration(name: str, element: XmlElement, file: str, place: str) -> Drawn
         value = one.property_of("Value").strip()
         if not _WHOLE.fullmatch(value):
             raise ModelError(
-                f"{place}, line {one.line}: {name}.{one.property_of('Name')} is {value[:40]!r}, and no whole "
-                "number. Members of an enumeration are whole numbers."
+                f"{place}, line {one.line}: {one.property_of('Name')[:40]!r} of {name[:40]!r} is "
+                f"{value[:40]!r}, and no whole number. Members of an enumeration are whole numbers."
             )
         members[one.property_of("Name").strip()] = int(value.partition(".")[0])
     default = default_of(members, element.property_of("DefaultValue").strip())
@@ -142,8 +149,8 @@ def _enumeration_class(name: str, base: str, text: str, path: Path) -> DrawnEnum
     members = {one[1]: int(one[2]) for line in block for one in _MEMBER.finditer(line)}
     if not members:
         raise ModelError(
-            f"{path}: the class {name} has no members `NAME (number)` between enumeration and end. Name a "
-            "class of an enumeration."
+            f"{path}: the class {name[:40]} has no members `NAME (number)` between enumeration and end. Name "
+            "a class of an enumeration."
         )
     default = found[2] if (found := _DEFAULT.search("\n".join(lines))) else ""
     storage = "" if base.startswith("Simulink") else base

@@ -7,12 +7,15 @@ from pathlib import Path, PurePosixPath
 from struct import error as StructError
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, LargeZipFile, ZipFile, ZipInfo
 
+from rovercheck.checker.io.printable import one_line
 from rovercheck.checker.simulink.xml import MOST_ELEMENTS, XmlElement, parsed
 from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_BYTES = 128 << 20
 """Bytes of a package, and of all of its parts that are read, unpacked."""
 MOST_PARTS = 20_000
+LONGEST = 100
+"""Letters of a name in a message."""
 ENTRY = b"PK\x01\x02"
 """What an entry of the list of parts begins with."""
 ONCE_MORE = "Save the model again in Simulink."
@@ -55,9 +58,9 @@ class SimulinkPackage:
         path = PurePosixPath(name)
         odd = "\\" in name or ":" in name or not name.isprintable()
         if odd or path.is_absolute() or ".." in path.parts:
-            raise ModelError(f"{self.path}: {name!r} is no name of a part. {ONCE_MORE}")
+            raise ModelError(f"{self.path}: {name[:LONGEST]!r} is no name of a part. {ONCE_MORE}")
         if name in self._infos:
-            raise ModelError(f"{self.path}: the part {name} is there twice. {ONCE_MORE}")
+            raise ModelError(f"{self.path}: the part {name[:LONGEST]} is there twice. {ONCE_MORE}")
         self._infos[name] = info
 
     def __contains__(self, name: str) -> bool:
@@ -68,8 +71,8 @@ class SimulinkPackage:
         return (name for name in self._infos if name.startswith(start))
 
     def place(self, name: str) -> str:
-        """How a part is named in a message."""
-        return f"{self.path.name}, part {name}"
+        """How a part is named in a message, of which a name may be in a file of a stranger."""
+        return f"{self.path.name}, part {one_line(name[:LONGEST])}"
 
     def data(self, name: str) -> bytes:
         """A part as bytes.  Raises ``ModelError`` for one that is missing, damaged or too large."""
