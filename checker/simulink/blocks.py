@@ -37,7 +37,7 @@ class DiagramReader:
 
     def _system(self, element: XmlElement, part: str, path: tuple[str, ...]) -> DrawnSystem:
         reference = element.attributes.get("Ref")
-        if len(path) > MOST_LEVELS:
+        if len(path) >= MOST_LEVELS:
             raise ModelError(
                 f"{self._package.place(part)}, line {element.line}: no more than {MOST_LEVELS} systems in "
                 "each other are read. No diagram that is drawn has so many."

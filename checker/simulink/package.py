@@ -104,8 +104,8 @@ class SimulinkPackage:
 
 
 def _said(error: BaseException) -> str:
-    text = str(error).strip().rstrip(".")
-    return text if text.isprintable() and text else type(error).__name__
+    text = str(error).strip().rstrip(".")  # which may quote the file from there to its end
+    return text if text.isprintable() and 0 < len(text) <= LONGEST else type(error).__name__
 
 
 __all__ = ["SimulinkPackage"]

@@ -9,7 +9,7 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from zipfile import ZipFile
+from zipfile import ZIP_STORED, ZipFile
 
 from tests.simulink.hostile import outcome
 from tests.simulink.samples import SAMPLES, package_of
@@ -72,7 +72,7 @@ def damaged(sample: str, many: int, seed: int, folder: Path) -> Iterator[str]:
         if random.random() < 0.5 or name.endswith(".m"):
             (folder / name).write_bytes(random.choice(DAMAGES)(random, whole[name]))
         else:
-            packed(folder / name, _one_damaged(random, whole[name]))
+            packed(folder / name, _one_damaged(random, whole[name]), ZIP_STORED)
         yield name
 
 

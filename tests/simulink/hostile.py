@@ -66,7 +66,7 @@ def outcome(path: Path) -> DrawnModel | str:
 def refusal(path: Path) -> str:
     """Why a package is not read."""
     found = outcome(path)
-    assert isinstance(found, str), found
+    assert isinstance(found, str), "it is read"
     return found
 
 

@@ -139,12 +139,12 @@ def _relations(names: Iterable[str]) -> Files:
     return {"_rels/.rels": xml_of(root), "[Content_Types].xml": xml_of(types)}
 
 
-def packed(path: Path, files: Mapping[str, bytes | str]) -> None:
+def packed(path: Path, files: Mapping[str, bytes | str], method: int = ZIP_DEFLATED) -> None:
     """A ZIP file of parts, which is the same whenever it is written."""
-    with ZipFile(path, "w", ZIP_DEFLATED) as package:
+    with ZipFile(path, "w", method) as package:
         for name in sorted(files):
             info = ZipInfo(name, (2024, 1, 1, 0, 0, 0))
-            info.compress_type = ZIP_DEFLATED
+            info.compress_type = method
             package.writestr(info, files[name])
 
 
