@@ -74,11 +74,6 @@ class DiagramReader:
             parameters |= _ports(parameters.get("Ports", ""))
         else:
             parameters |= {f"ports {key}": value for key, value in counts.attributes.items()}
-        signals: dict[str, str] = {}
-        for ports in one.all("PortProperties"):
-            for port in ports.all("Port"):
-                if port.attributes.get("Type") == "out" and (signal := port.property_of("Name")):
-                    signals[port.attributes.get("Index", "1")] = signal
         left, top, right, bottom = numbers(parameters.get("Position", ""), 4)
         return DrawnBlock(
             id=one.attributes.get("SID", ""),
@@ -86,7 +81,7 @@ class DiagramReader:
             name=name,
             path=path_of(*within),
             parameters=parameters,
-            signals=signals,
+            signals=dict(_signals(one)),
             system=None if system is None else self._system(system, part, within),
             chart=path_of(*within) if parameters.get("SFBlockType") in CHARTS else "",
             rectangle=(left, top, right - left, bottom - top),
@@ -102,7 +97,7 @@ class DiagramReader:
             if branch.tag in ("Line", "Branch"):
                 target = self._end(branch.property_of("Dst"), branch, part, TARGETS)
                 if target is not None:
-                    yield DrawnLine(source[0], int(source[2]), target[0], target[2] or target[1])
+                    yield DrawnLine(source[0], int(source[2] or 0), target[0], target[2] or target[1])
 
     def _end(
         self, text: str, one: XmlElement, part: str, kinds: tuple[str, ...]
@@ -116,13 +111,24 @@ class DiagramReader:
                 f"{self._package.place(part)}, line {one.line}: a signal ends at {text[:40]!r}, which is no "
                 "port. Save the model again in Simulink."
             )
-        return found[1], found[2], found[3] or ("1" if found[2] == "state" else "")
+        return found[1], found[2], found[3] or ""
+
+
+def _signals(block: XmlElement) -> Iterator[tuple[str, str]]:
+    """The names of the outputs of a block by number; older releases put the number into a property."""
+    for ports in block.all("PortProperties"):
+        for port in ports.all("Port"):
+            if port.attributes.get("Type") == "out" and (name := port.property_of("Name")):
+                yield port.attributes.get("Index", "1"), name
+    for port in block.all("Port"):
+        if name := port.property_of("Name"):
+            yield port.property_of("PortNumber", "1"), name
 
 
 def _ports(written: str) -> dict[str, str]:
     """How many ports of each kind a block has, of which older releases wrote a list."""
-    counts = zip(PORTS, _COUNT.findall(written), strict=False)
-    return {f"ports {kind}": count for kind, count in counts if int(count)}
+    counts = zip(PORTS, _COUNT.finditer(written), strict=False)
+    return {f"ports {kind}": count[0] for kind, count in counts if int(count[0])}
 
 
 __all__ = ["CONTROL", "DiagramReader"]

@@ -7,6 +7,7 @@ from itertools import dropwhile, takewhile
 from pathlib import Path
 
 from rovercheck.checker.drawn.records import DrawnBus, DrawnElement, DrawnEnumeration, DrawnParameter
+from rovercheck.checker.simulink.assignments import assignments
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
 from rovercheck.spec_model.lang.errors import ModelError
@@ -17,9 +18,11 @@ LONGEST_NAME = 255
 MOST_TEXT = 4 << 20
 """Bytes of a class or a script."""
 
-_CLASS = re.compile(r"^\s*classdef\s*(?:\([^)\n]*\)\s*)?(\w+)\s*<\s*([\w.]+)", re.MULTILINE)
-_MEMBER = re.compile(r"(\w+)\s*\(\s*(-?\d{1,18})\s*\)")
-_DEFAULT = re.compile(r"function\s+(\w+)\s*=\s*getDefaultValue\b[^\n]*\n\s*\1\s*=\s*(?:\w+\.)?(\w+)")
+_CLASS = re.compile(r"^[ \t]*classdef\s*(?:\([^)\n]*\)\s*)?(\w+)\s*<\s*([\w.]+)", re.MULTILINE)
+_MEMBER = re.compile(r"\b(\w+)\s*\(\s*(-?\d{1,18})\s*\)")
+_DEFAULT = re.compile(
+    r"function\s+(\w+)\s*=\s*getDefaultValue[ \t]*(?:\([ \t]*\))?[ \t;,]*\n\s*\1\s*=\s*(?:\w+\.)?(\w+)"
+)
 _COMMENT = re.compile(r"%.*")
 _WHOLE = re.compile(r"-?\d{1,18}(?:\.0*)?")
 
@@ -83,7 +86,7 @@ class Definitions:
         if found := _CLASS.search(text):
             self.enumerations[found[1]] = _enumeration_class(found[1], found[2], text, path)
         else:
-            for name, value in _assignments(text):
+            for name, value in assignments(text):
                 self.parameters[name] = DrawnParameter(name, value, "", path.name)
 
 
@@ -155,14 +158,6 @@ def _enumeration_class(name: str, base: str, text: str, path: Path) -> DrawnEnum
     default = found[2] if (found := _DEFAULT.search("\n".join(lines))) else ""
     storage = "" if base.startswith("Simulink") else base
     return DrawnEnumeration(name, members, default_of(members, default), storage, path.name)
-
-
-def _assignments(text: str) -> Iterator[tuple[str, str]]:
-    """The assignments of a script that say a value; what computes is for those who ask for the name."""
-    for line in text.splitlines():
-        name, equals, value = (part.strip() for part in _COMMENT.sub("", line).partition("="))
-        if equals and name.isidentifier() and not value.startswith("="):
-            yield name, value.rstrip("; ")
 
 
 def files_beside(model: Path, names: Sequence[str]) -> Iterator[Path]:

@@ -131,10 +131,18 @@ def _solver(package: SimulinkPackage, model: XmlElement) -> Mapping[str, str]:
             if one.attributes.get("Active") == "true" and (name := one.attributes.get("PartName")):
                 active = name.lstrip("/")
     root = package.xml(active) if active in package else model
-    for one in root.every():
+    for one in _active(root).every():
         if one.attributes.get("ClassName") == "Simulink.SolverCC":
             return {p.attributes.get("Name", ""): p.text.strip() for p in one.all("P")}
     return {}
+
+
+def _active(root: XmlElement) -> XmlElement:
+    """The configuration that is active of those inline in a model, else all of them."""
+    names = (one for one in root.every() if one.attributes.get("PropName") == "ActiveConfigurationSet")
+    numbers = {one.attributes.get("ObjectID") for one in names} - {None}
+    sets = (one for one in root.every() if one.attributes.get("ClassName") == "Simulink.ConfigSet")
+    return next((one for one in sets if one.attributes.get("ObjectID") in numbers), root)
 
 
 def _release(package: SimulinkPackage) -> str:

@@ -239,7 +239,7 @@ def diagram(system: str, folder: Path, more: str = "") -> DrawnModel:
 def test_branches_nest_and_ends_that_are_not_connected_are_no_signals(tmp_path: Path) -> None:
     lines = diagram(SYSTEM.format(position=""), tmp_path).system.lines
     assert [(one.source, one.from_port, one.target, one.to_port) for one in lines] == [
-        ("1", 1, "2", "1"), ("1", 1, "3", "enable"), ("4", 1, "5::6", "trigger")
+        ("1", 1, "2", "1"), ("1", 1, "3", "enable"), ("4", 0, "5::6", "trigger")
     ]  # fmt: skip
 
 
@@ -281,6 +281,29 @@ def test_the_solver_is_that_of_the_configuration_that_is_active(tmp_path: Path) 
         ).encode()
     packed(tmp_path / "lamp.slx", files)
     assert read_model(tmp_path / "lamp.slx").step == "1"
+
+
+def test_of_configurations_inline_the_active_one_counts(tmp_path: Path) -> None:
+    solver = '<Object ClassName="Simulink.SolverCC"><P Name="FixedStep">{}</P></Object>'
+    sets = "".join(
+        f'<Object ClassName="Simulink.ConfigSet" ObjectID="{n}">{solver.format(f"0.{n}")}</Object>'
+        for n in (1, 2)
+    )
+    both = f'<Array PropName="ConfigurationSets">{sets}</Array>'
+    assert diagram("", tmp_path, both).step == "0.1"
+    active = '<Object PropName="ActiveConfigurationSet" ObjectID="2"/>'
+    assert diagram("", tmp_path, both + active).step == "0.2"
+
+
+def test_names_of_signals_are_read_in_old_and_new_layouts(tmp_path: Path) -> None:
+    new = (
+        '<PortProperties><Port Type="out" Index="2"><P Name="Name">b</P></Port><Port Type="in" Index="1"/>'
+        "</PortProperties>"
+    )
+    old = '<Port><P Name="PortNumber">2</P><P Name="Name">b</P></Port><Port><P Name="PortNumber">1</P></Port>'
+    for inside in (new, old):
+        text = f'<Block BlockType="Demux" Name="d" SID="1">{inside}</Block>'
+        assert diagram(text, tmp_path).system.blocks[0].signals == {"2": "b"}
 
 
 # --- beside the model --------------------------------------------------------------------------------------
