@@ -35,6 +35,8 @@ class DrawingNote:
         return f"{self.where}, {self.what}{number}: {self.text}"
 
 
+LONGEST = 100
+"""Letters of the name of a state in a note."""
 BLOCKS: Mapping[str, str] = {
     "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
     "ModelReference": "another model. Import that model by itself",
@@ -101,7 +103,7 @@ def _level(
         if state.action_subsystem:
             text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
             yield _of_state(chart, where, state, text)
-        yield from _level(chart, state.content, f"{where}/{state.name}", state)
+        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state)
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:
@@ -124,7 +126,7 @@ def _note(chart: DrawnChart, what: str, text: str) -> DrawingNote:
 
 def _of_state(chart: DrawnChart, where: str, state: DrawnState, text: str) -> DrawingNote:
     return DrawingNote(
-        "refused", where, f"the state {state.name}", f"{text}.", chart.part, state.ssid, state.line
+        "refused", where, f"the state {state.name[:LONGEST]}", f"{text}.", chart.part, state.ssid, state.line
     )
 
 

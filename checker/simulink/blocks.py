@@ -16,6 +16,8 @@ TARGETS = ("in", "enable", "trigger", "ifaction", "state", "reset", "event")
 CONTROL = {"enable": "EnablePort", "trigger": "TriggerPort", "ifaction": "ActionPort"}
 PORTS = ("in", "out", "enable", "trigger", "state", "lconn", "rconn", "ifaction", "reset")
 """The order in which older releases count the ports of a block."""
+MOST_LETTERS = 50_000_000
+"""Letters of the paths of all blocks, in each of which there are the names of all that are around it."""
 MOST_LEVELS = 64
 """Systems in each other; the deepest diagrams known have a quarter of them."""
 
@@ -26,6 +28,7 @@ class DiagramReader:
     def __init__(self, package: SimulinkPackage) -> None:
         self._package = package
         self._read: set[str] = set()
+        self._letters = MOST_LETTERS
 
     def root(self, element: XmlElement, part: str) -> DrawnSystem:
         """The diagram of a model, whose element holds or names its system.  Raises ``ModelError``."""
@@ -67,6 +70,13 @@ class DiagramReader:
     def _block(self, one: XmlElement, part: str, path: tuple[str, ...]) -> DrawnBlock:
         name = one.attributes.get("Name", "")
         within = (*path, name)
+        own_path = path_of(*within)
+        self._letters -= len(own_path)
+        if self._letters < 0:
+            raise ModelError(
+                f"{self._package.place(part)}, line {one.line}: the paths of the blocks have more than "
+                f"{MOST_LETTERS:,} letters. No diagram that is drawn has so many."
+            )
         system = one.child("System")
         parameters = {p.attributes.get("Name", ""): p.text for p in one.all("P")}
         counts = one.child("PortCounts")
@@ -79,11 +89,11 @@ class DiagramReader:
             id=one.attributes.get("SID", ""),
             kind=one.attributes.get("BlockType", ""),
             name=name,
-            path=path_of(*within),
+            path=own_path,
             parameters=parameters,
             signals=dict(_signals(one)),
             system=None if system is None else self._system(system, part, within),
-            chart=path_of(*within) if parameters.get("SFBlockType") in CHARTS else "",
+            chart=own_path if parameters.get("SFBlockType") in CHARTS else "",
             rectangle=(left, top, right - left, bottom - top),
             line=one.line,
         )

@@ -65,15 +65,16 @@ def damaged(sample: str, many: int, seed: int, folder: Path) -> Iterator[str]:
     """
     random = Random(f"{sample} {seed}")
     whole = {file.name: file.read_bytes() for file in package_of(sample).parent.iterdir() if is_read(file)}
+    for name, data in whole.items():
+        (folder / name).write_bytes(data)
     for _ in range(many):
         name = random.choice(list(whole))
-        for other, data in whole.items():
-            (folder / other).write_bytes(data)
         if random.random() < 0.5 or name.endswith(".m"):
             (folder / name).write_bytes(random.choice(DAMAGES)(random, whole[name]))
         else:
             packed(folder / name, _one_damaged(random, whole[name]), ZIP_STORED)
         yield name
+        (folder / name).write_bytes(whole[name])
 
 
 def is_read(file: Path) -> bool:

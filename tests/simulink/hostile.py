@@ -5,15 +5,18 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
 from pathlib import Path
 
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.errors import ModelError
-from tests.simulink.writer.packages import packed
+from tests.simulink.samples import SAMPLES
+from tests.simulink.writer.packages import DIAGRAM, packed
 
+ROOT = "simulink/systems/system_root.xml"
+CHART = "simulink/stateflow/chart_22.xml"
+MACHINE = "simulink/stateflow/machine.xml"
 FORBIDDEN = ("subprocess.", "os.system", "os.exec", "os.posix_spawn", "socket.", "os.mkdir", "os.rename",
              "os.remove", "pickle.", "ctypes.", "shutil.", "tempfile.")  # fmt: skip
 LONGEST = 600
@@ -55,7 +58,7 @@ def outcome(path: Path) -> DrawnModel | str:
             model = read_model(path)
             for note in notes_of(model):
                 str(note)
-            json.dumps(asdict(model), allow_nan=False)
+            json.dumps(model, default=vars, allow_nan=False)
             return model
     except ModelError as error:
         message = str(error)
@@ -76,4 +79,18 @@ def refused_parts(files: Mapping[str, bytes | str], folder: Path) -> str:
     return refusal(folder / "hostile.slx")
 
 
-__all__ = ["harmless", "outcome", "refusal", "refused_parts"]
+def lamp(**more: bytes | str) -> Mapping[str, bytes | str]:
+    """The parts of a sound model, with some in place of its own."""
+    names = {"root": ROOT, "chart": CHART, "diagram": DIAGRAM, "machine": MACHINE}
+    return {**SAMPLES["1_lamp"]().files(), **{names[name]: text for name, text in more.items()}}
+
+
+def package_in(folder: Path, files: Mapping[str, bytes | str]) -> Path:
+    """A package of these parts."""
+    packed(folder / "model.slx", files)
+    return folder / "model.slx"
+
+
+__all__ = [
+    "CHART", "MACHINE", "ROOT", "harmless", "lamp", "outcome", "package_in", "refusal", "refused_parts",
+]  # fmt: skip

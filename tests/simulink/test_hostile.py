@@ -1,11 +1,8 @@
-"""A package of a stranger is read within bounds, or refused in one message, whatever is in it."""
+"""The parts of a package of a stranger are read within bounds, or refused in one message."""
 
-from collections.abc import Mapping
 from contextlib import suppress
 from encodings.aliases import aliases
 from pathlib import Path
-from struct import pack_into
-from zipfile import ZIP_BZIP2, ZIP_DEFLATED, ZIP_LZMA, ZipFile, ZipInfo
 
 import pytest
 
@@ -15,22 +12,12 @@ from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.xml import parsed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.corruption import damaged
-from tests.simulink.hostile import harmless, outcome, refusal, refused_parts
+from tests.simulink.hostile import CHART, ROOT, harmless, lamp, outcome, package_in, refused_parts
 from tests.simulink.samples import SAMPLES, package_of
 from tests.simulink.writer.packages import DIAGRAM, Files, WrittenModel, packed
 
 MANY = 200
 """Random damages of each example; ``python -m tests.simulink.corruption`` tries any number of them."""
-ROOT = "simulink/systems/system_root.xml"
-CHART = "simulink/stateflow/chart_22.xml"
-MACHINE = "simulink/stateflow/machine.xml"
-
-
-def lamp(**more: bytes | str) -> Mapping[str, bytes | str]:
-    """The parts of a sound model, with some in place of its own."""
-    names = {"root": ROOT, "chart": CHART, "diagram": DIAGRAM, "machine": MACHINE}
-    return {**SAMPLES["1_lamp"]().files(), **{names[name]: text for name, text in more.items()}}
-
 
 # --- random damage -----------------------------------------------------------------------------------------
 
@@ -89,18 +76,13 @@ def test_elements_in_each_other_are_read_up_to_a_bound(tmp_path: Path) -> None:
 def test_elements_of_all_parts_are_counted_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(package, "MOST_ELEMENTS", 1000)
     many = f"<System>{'<Block/>' * 600}</System>"
-    assert not isinstance(outcome(_packed(lamp(root=many), tmp_path)), str)
+    assert not isinstance(outcome(package_in(tmp_path, lamp(root=many))), str)
     model = WrittenModel("two")
     model.root.subsystem("below", 0, 0)
-    files = {**model.files(), "simulink/systems/system_1.xml": many}
-    assert not isinstance(outcome(_packed(files, tmp_path)), str)
-    own = files[ROOT].decode().replace("</System>", f"{'<Block/>' * 600}</System>")
-    assert "in one package" in refused_parts({**files, ROOT: own}, tmp_path)
-
-
-def _packed(files: Mapping[str, bytes | str], folder: Path) -> Path:
-    packed(folder / "model.slx", files)
-    return folder / "model.slx"
+    files = model.files() | {"simulink/systems/system_1.xml": many.encode()}
+    assert not isinstance(outcome(package_in(tmp_path, files)), str)
+    own = files[ROOT].replace(b"</System>", b"<Block/>" * 600 + b"</System>")
+    assert "in one package" in refused_parts(files | {ROOT: own}, tmp_path)
 
 
 @pytest.mark.parametrize("states", [20, 97])
@@ -109,7 +91,7 @@ def test_states_in_each_other_are_told_at_any_depth_that_is_read(
 ) -> None:
     start = '<state SSID="{}"><P Name="type">OR_STATE</P><P Name="labelString">S</P><Children>'
     text = "".join(start.format(number) for number in range(1, states + 1)) + "</Children></state>" * states
-    path = _packed(lamp(chart=f'<chart id="22"><Children>{text}</Children></chart>'), tmp_path)
+    path = package_in(tmp_path, lamp(chart=f'<chart id="22"><Children>{text}</Children></chart>'))
     assert len(list(read_model(path).charts[0].content.every_state())) == states
     assert run(["import", str(path)]) == 0
     assert run(["import", str(path), "--json"]) == 0
@@ -137,13 +119,13 @@ def chain(many: int, last: str) -> Files:
 def test_systems_in_each_other_are_read_up_to_a_bound(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    path = _packed(chain(blocks.MOST_LEVELS - 2, ""), tmp_path)
+    path = package_in(tmp_path, chain(blocks.MOST_LEVELS - 2, ""))
     assert run(["import", str(path), "--json"]) == 0
     inline = "<System>" + block(1, "") + "</System>"
     for number in range(blocks.MOST_LEVELS - 1):
         inline = f"<System>{block(number, inline)}</System>"
     told = f"no more than {blocks.MOST_LEVELS} systems in each other are read"
-    assert run(["import", str(_packed(lamp(root=inline), tmp_path)), "--json"]) == 0
+    assert run(["import", str(package_in(tmp_path, lamp(root=inline))), "--json"]) == 0
     assert capsys.readouterr().err == ""
     assert told in refused_parts(lamp(root=f"<System>{block(1, inline)}{block(2, '')}</System>"), tmp_path)
     assert told in refused_parts(chain(1000, ""), tmp_path)
@@ -168,117 +150,13 @@ def test_a_part_that_only_names_another_one_is_refused(tmp_path: Path) -> None:
     assert f"part {ROOT}: in place of a system it has the name of another one" in said
 
 
-# --- the ZIP file ------------------------------------------------------------------------------------------
-
-
-def test_a_part_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(package, "MOST_BYTES", 1 << 20)
-    said = refused_parts(lamp(root=f"<System>{' ' * (2 << 20)}</System>"), tmp_path)
-    assert said == f"hostile.slx, part {ROOT}: more than 1 MiB of parts, unpacked, are not read."
-    halves = lamp(root=f"<System>{' ' * (600 << 10)}</System>", chart=f"<chart>{' ' * (600 << 10)}</chart>")
-    assert "more than 1 MiB of parts" in refused_parts(halves, tmp_path)
-    unread = {**lamp(), "simulink/picture.png": b"\0" * (2 << 20)}
-    assert not isinstance(outcome(_packed(unread, tmp_path)), str)
-
-
-def test_a_file_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(package, "MOST_BYTES", 1 << 20)
-    (tmp_path / "large.slx").write_bytes(b"PK" * (1 << 20))
-    assert refusal(tmp_path / "large.slx") == "large.slx: more than 1 MiB are not read."
-
-
-def test_a_size_that_is_a_lie_does_not_count(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(package, "MOST_BYTES", 1 << 20)
-    path = _packed(lamp(root=f"<System>{' ' * (2 << 20)}</System>"), tmp_path)
-    data = bytearray(path.read_bytes())
-    for start, offset in ((b"PK\x01\x02", 24), (b"PK\x03\x04", 22)):
-        at = -1
-        while (at := data.find(start, at + 1)) >= 0:
-            pack_into("<I", data, at + offset, 100)
-    path.write_bytes(data)
-    assert isinstance(outcome(path), str)
-
-
-def test_many_parts_are_refused_before_there_is_an_object_for_each(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "many.slx").write_bytes(package.ENTRY * (package.MOST_PARTS + 1))
-    assert refusal(tmp_path / "many.slx") == "many.slx: more than 20,000 parts in one package are not read."
-    monkeypatch.setattr(package, "MOST_PARTS", 20)
-    parts = {f"part{number}": b"" for number in range(10)}
-    assert "more than 20 parts" in refused_parts({**lamp(), **parts}, tmp_path)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        "/etc/passwd",
-        "//a",
-        "../a.xml",
-        "a/../../b",
-        "a\\..\\b",
-        "C:/a",
-        "a\nb",
-        "a\x1b[2Jb",
-        "a\u202eb",
-        "a\x9bb",
-    ],
-)
-def test_a_part_with_a_name_that_is_none_is_refused(name: str, tmp_path: Path) -> None:
-    said = refused_parts({**lamp(), name: b""}, tmp_path)
-    assert said == f"hostile.slx: {name!r} is no name of a part. Save the model again in Simulink."
-
-
-@pytest.mark.filterwarnings("ignore:Duplicate name:UserWarning")
-def test_a_part_that_is_there_twice_is_refused(tmp_path: Path) -> None:
-    path = _packed(lamp(), tmp_path)
-    with ZipFile(path, "a") as zipped:
-        zipped.writestr(ROOT, "<System/>")
-    assert f"the part {ROOT} is there twice" in refusal(path)
-
-
-@pytest.mark.parametrize("method", [ZIP_BZIP2, ZIP_LZMA])
-def test_a_part_that_is_packed_by_another_method_is_refused(method: int, tmp_path: Path) -> None:
-    with ZipFile(tmp_path / "other.slx", "w", method) as zipped:
-        for name, text in lamp().items():
-            zipped.writestr(name, text)
-    assert "packed by a method that is not Simulink's" in refusal(tmp_path / "other.slx")
-
-
-@pytest.mark.parametrize(("offset", "value"), [(8, 1), (8, 0x41), (8, 0x20), (10, 99), (10, 14), (10, 0)])
-def test_flags_and_methods_that_do_not_fit_are_refused(offset: int, value: int, tmp_path: Path) -> None:
-    """Encrypted parts, patches, unknown methods, and packed parts that are said to be plain."""
-    path = _packed(lamp(), tmp_path)
-    data = bytearray(path.read_bytes())
-    at = -1
-    while (at := data.find(b"PK\x01\x02", at + 1)) >= 0:
-        data[at + offset] = value
-    path.write_bytes(data)
-    assert f"part {DIAGRAM}: " in refusal(path)
-
-
-def test_a_file_that_is_cut_anywhere_is_refused(tmp_path: Path) -> None:
-    whole = _packed(lamp(), tmp_path).read_bytes()
-    for length in range(0, len(whole) - 1, 97):
-        (tmp_path / "cut.slx").write_bytes(whole[:length])
-        assert "it is no package of Simulink" in refusal(tmp_path / "cut.slx")
-
-
-def test_a_zip_in_front_of_a_zip_is_no_other_model(tmp_path: Path) -> None:
-    """What stands before a package is no part of it: the list at its end counts."""
-    whole = _packed(lamp(), tmp_path).read_bytes()
-    (tmp_path / "model.slx").write_bytes(b"#!/bin/sh\nexit 1\n" + whole)
-    assert not isinstance(outcome(tmp_path / "model.slx"), str)
-
-
-def test_what_is_no_file_or_no_package_is_told(tmp_path: Path) -> None:
-    (tmp_path / "text.slx").write_text("Model {\n}\n", encoding="utf-8")
-    assert "it is no package of Simulink: File is not a zip file" in refusal(tmp_path / "text.slx")
-    assert "Name a file of Simulink" in refusal(tmp_path)
-    assert "Name a file of Simulink" in refusal(tmp_path / "gone.slx")
-    with ZipFile(tmp_path / "empty.slx", "w", ZIP_DEFLATED) as zipped:
-        zipped.writestr(ZipInfo("a/"), "")
-    assert f"it has no part {DIAGRAM}" in refusal(tmp_path / "empty.slx")
+def test_long_names_of_systems_do_not_multiply(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(blocks, "MOST_LETTERS", 100_000)
+    inside = "<System>" + '<Block Name="b"/>' * 100 + "</System>"
+    named = f'<System><Block Name="{{}}" SID="1">{inside}</Block></System>'
+    assert not isinstance(outcome(package_in(tmp_path, lamp(root=named.format("a" * 900)))), str)
+    said = refused_parts(lamp(root=named.format("a" * 1000)), tmp_path)
+    assert "the paths of the blocks have more than 100,000 letters" in said
 
 
 # --- parts and values --------------------------------------------------------------------------------------

@@ -80,4 +80,4 @@ def _bus(value: Element, fields: Fields, suffix: str) -> None:
         _said(one, "Dimensions", size, "double")
 
 
-__all__ = ["dictionary"]
+__all__ = ["Names", "dictionary"]
