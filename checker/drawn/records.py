@@ -12,7 +12,7 @@ Point = tuple[float, float]
 Rectangle = tuple[float, float, float, float]
 """Left, top, width and height."""
 
-ActionLanguage = Literal["MATLAB", "C", "C with bit operations"]
+ChartLanguage = Literal["MATLAB", "C", "C with bit operations"]
 DrawnChartKind = Literal["chart", "MATLAB function", "truth table", "state transition table"]
 DrawnStateKind = Literal["exclusive", "parallel", "function", "box", "note"]
 DrawnFunctionKind = Literal["", "graphical", "MATLAB", "truth table", "Simulink"]
@@ -145,7 +145,7 @@ class DrawnChart:
 
     path: str
     kind: DrawnChartKind
-    language: ActionLanguage
+    language: ChartLanguage
     content: DrawnContent
     part: str
     """The part of the file that it stands in."""
@@ -298,7 +298,7 @@ def path_of(*names: str) -> str:
 
 
 __all__ = [
-    "ActionLanguage", "DrawnBlock", "DrawnBus", "DrawnChart", "DrawnChartKind", "DrawnContent", "DrawnData",
+    "ChartLanguage", "DrawnBlock", "DrawnBus", "DrawnChart", "DrawnChartKind", "DrawnContent", "DrawnData",
     "DrawnElement", "DrawnEnumeration", "DrawnEvent", "DrawnFunctionKind", "DrawnJunction", "DrawnLine",
     "DrawnModel", "DrawnParameter", "DrawnScope", "DrawnState", "DrawnStateKind", "DrawnSystem",
     "DrawnTransition", "DrawnTrigger", "Point", "Rectangle", "names_of", "path_of",

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Literal, TypeVar, cast
 
 from rovercheck.checker.drawn.records import (
-    ActionLanguage,
+    ChartLanguage,
     DrawnChart,
     DrawnChartKind,
     DrawnContent,
@@ -34,7 +34,7 @@ CHARTS: Mapping[str, DrawnChartKind] = {
     "TRUTHTABLE_CHART": "truth table",
     "STATE_EVENT_TABLE_CHART": "state transition table",
 }
-LANGUAGES: Mapping[str, ActionLanguage] = {"": "C", "0": "C", "1": "C with bit operations", "2": "MATLAB"}
+LANGUAGES: Mapping[str, ChartLanguage] = {"": "C", "0": "C", "1": "C with bit operations", "2": "MATLAB"}
 STATES: Mapping[str, DrawnStateKind] = {
     "OR_STATE": "exclusive", "AND_STATE": "parallel", "FUNC_STATE": "function", "GROUP_STATE": "box"
 }  # fmt: skip
@@ -72,7 +72,7 @@ class _ChartReader:
     def chart(self) -> DrawnChart:
         one = self.element
         kind = self._word(one, "type", CHARTS)
-        language: ActionLanguage = self._word(one, "actionLanguage", LANGUAGES)
+        language: ChartLanguage = self._word(one, "actionLanguage", LANGUAGES)
         activity = one.child("activeStateOutput")
         return DrawnChart(
             path=self.path,

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.adapters import python
-from rovercheck.checker.cli import run
+from rovercheck.checker.cli import VerbTable, run
 from rovercheck.checker.compare import Allowance, cross_check, effort
 from rovercheck.checker.compare.beside import rerun
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
@@ -17,6 +17,7 @@ from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.causes import by_itself, cause_groups, followed, split
+from rovercheck.checker.diagnosis.search import SECONDS
 from rovercheck.checker.model.load import load
 from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 
@@ -195,3 +196,10 @@ def test_runs_beyond_what_is_kept_are_counted(folder: Path, monkeypatch: pytest.
     assert runs.of == result.notable.deviating > len(runs.runs) >= len(result.deviations)
     groups = by_itself(result.deviations)
     assert split(groups.causes, lambda one: True) == groups.causes
+
+
+@pytest.mark.parametrize("verb", ["compare", "check-log", "diagnose"])
+def test_every_verb_looks_for_causes_as_long_as_the_pages_say(verb: str) -> None:
+    """The command line had half of the time that docs/compare.md gives."""
+    [option] = [one for one in VerbTable()[verb].params if one.name == "seconds"]
+    assert option.default == SECONDS == 120

@@ -281,10 +281,10 @@ def seeking_causes(command: Callable[..., Exit]) -> Callable[..., Exit]:
         click.option(
             "--seconds",
             type=click.FloatRange(min=0, min_open=True),
-            default=60.0,
+            default=120.0,
             show_default=True,
             metavar="S",
-            help="How long the causes of a part are looked for.",
+            help="How long the causes of a part are looked for, in seconds of the processor.",
         ),
     )
 
