@@ -1,6 +1,6 @@
 """What stands in a file of charts and has no meaning here, each with its place and the way around it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -77,23 +77,28 @@ def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
         yield _note(chart, "the chart", "an update in continuous time. Make it discrete, or inherited")
     if chart.machine == "Moore":
         yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
-    yield from _level(chart, chart.content, chart.path, None)
+    levels = list(chart.content.every_level())
+    ends = {one.ssid for level in levels for one in (*level.states, *level.junctions)}
+    yield from _level(chart, chart.content, chart.path, None, ends)
 
 
 def _level(
-    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None
+    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None, ends: Collection[int]
 ) -> Iterator[DrawingNote]:
-    """What is in a chart or a state, ``holder``, and in the states there."""
+    """What is in a chart or a state, ``holder``, and in its states; transitions lead to ``ends``."""
     kinds = {state.kind for state in content.states} & {"exclusive", "parallel"}
     if len(kinds) > 1:
         text = "exclusive and parallel states in one level. Draw one kind of them."
         ssid, line = (None, 0) if holder is None else (holder.ssid, holder.line)
         yield DrawingNote("refused", where, "its states", text, chart.part, ssid, line)
     for transition in content.transitions:
+        what = f"the transition `{label_of(transition)}`"
         if transition.target is None:
             text = "it leads nowhere, and is left out."
-            what = f"the transition `{label_of(transition)}`"
             yield DrawingNote("otherwise", where, what, text, chart.part, transition.ssid, transition.line)
+        for end in {transition.source, transition.target} - {None, *ends}:
+            text = f"SSID {end} at an end of it is no state and no junction. Draw it to one of them."
+            yield DrawingNote("refused", where, what, text, chart.part, transition.ssid, transition.line)
     for one in content.data:
         yield from _datum(chart, where, one)
     for state in content.states:
@@ -103,7 +108,7 @@ def _level(
         if state.action_subsystem:
             text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
             yield _of_state(chart, where, state, text)
-        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state)
+        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state, ends)
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:

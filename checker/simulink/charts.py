@@ -78,7 +78,7 @@ class _ChartReader:
             path=self.path,
             kind=kind,
             language="MATLAB" if kind == "MATLAB function" else language,
-            content=self._content(one, None),
+            content=self._unique(self._content(one, None)),
             part=self.part,
             id=self._whole(one, one.attributes.get("id", "0"), "the id"),
             parallel=one.property_of("decomposition") == "SET_CHART",
@@ -109,6 +109,19 @@ class _ChartReader:
             tuple(data_of(one, self.place) for one in every if one.tag == "data"),
             tuple(self._event(one) for one in every if one.tag == "event"),
         )
+
+    def _unique(self, content: DrawnContent) -> DrawnContent:
+        """The same content.  Raises ``ModelError`` if two elements of it have one number."""
+        seen: dict[int, int] = {}
+        for level in content.every_level():
+            for one in (*level.states, *level.transitions, *level.junctions, *level.data, *level.events):
+                if one.ssid in seen:
+                    raise ModelError(
+                        f"{self.place}, line {one.line}: the element has SSID {one.ssid}, and so has the one "
+                        f"in line {seen[one.ssid]}. Save the model again in Simulink."
+                    )
+                seen[one.ssid] = one.line
+        return content
 
     def _state(self, one: XmlElement) -> DrawnState:
         ssid, label = self._ssid(one), one.property_of("labelString")

@@ -16,6 +16,7 @@ from rovercheck.checker.simulink.model import read_model
 from tests.cli.test_widths import at_terminal, too_long
 from tests.schemas import published
 from tests.simulink.samples import SAMPLES, package_of
+from tests.simulink.writer.charts import WrittenJunction
 from tests.simulink.writer.packages import WrittenModel
 
 DRAWN = Draft202012Validator(published("import-1"))
@@ -106,6 +107,19 @@ def test_all_that_has_no_meaning_is_told_with_its_place_and_a_way_around_it(odd:
     )  # fmt: skip
     assert all(note.line > 0 for note in notes if note.what != "the chart")
     assert all(note.part.startswith("simulink/") for note in notes if note.what != "the datum SHARED")
+
+
+def test_a_transition_to_what_is_no_state_and_no_junction_is_refused(tmp_path: Path) -> None:
+    model = WrittenModel("ends")
+    chart = model.root.chart("Ends")[1]
+    state = chart.state("S")
+    chart.transition(state, WrittenJunction(99, chart), "[x]")
+    (note,) = notes_of(read_model(model.save(tmp_path / "ends.slx")))
+    assert str(note) == (
+        "Ends, the transition `[x]` (SSID 2): SSID 99 at an end of it is no state and no junction. Draw it "
+        "to one of them."
+    )
+    assert note.kind == "refused"
 
 
 def test_every_note_is_in_the_text_and_the_exit_code_is_two(

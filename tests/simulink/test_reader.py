@@ -9,6 +9,7 @@ import pytest
 
 from rovercheck.checker.drawn.records import DrawnChart, DrawnModel, DrawnState
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.outline import chart_lines, outline
 from tests.simulink.samples import SAMPLES, package_of, write_beside
 from tests.simulink.writer.charts import WrittenChart
@@ -187,3 +188,19 @@ def test_data_and_events_keep_what_is_written_of_them(tmp_path: Path) -> None:
     assert (d.scope, d.type) == ("data store", "Bus: Cockpit")
     told = [(one.name, one.scope, one.trigger) for one in content.events]
     assert told == [("up", "input", "rising"), ("call", "output", "function call"), ("own", "local", "")]
+
+
+def test_two_elements_with_one_number_are_refused(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart) -> None:
+        chart.junction(chart.state("S")).ssid = 3
+        chart.data("d", "local")
+
+    with pytest.raises(ModelError, match=r"line \d+: the element has SSID 3, and so has the one in line \d+"):
+        one_chart(draw, tmp_path)
+
+
+def test_a_class_of_data_of_all_charts_is_found_too(tmp_path: Path) -> None:
+    (tmp_path / "Gear.m").write_text("classdef Gear < uint8\nenumeration\nN (0)\nend\nend\n", "utf-8")
+    shared = {"SHARED": {"scope": "LOCAL_DATA", "dataType": "Enum: Gear"}}
+    found = read_model(WrittenModel("all", machine=shared).save(tmp_path / "all.slx"))
+    assert [one.name for one in found.enumerations] == ["Gear"]
