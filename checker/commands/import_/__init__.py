@@ -10,6 +10,7 @@ EXAMPLES = """\b
 Examples:
   rovercheck import supervisor.slx
   rovercheck import supervisor.slx --beside parameters.m --beside types.sldd
+  rovercheck import supervisor.slx --compare run.csv
   rovercheck import supervisor.slx --json
 """
 
@@ -23,12 +24,17 @@ FILE = click.Path(path_type=Path)
     help="A data dictionary (.sldd), a class of an enumeration or a script of values (.m) that the model "
     "uses.  The dictionary that the model names, and classes in its folder, are found.",
 )  # fmt: skip
+@click.option(
+    "--compare", "log", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="LOG.csv",
+    help="Run the model on the inputs of a log, a row a step, and compare its outputs: columns are named as "
+    "the ports, elements as in probe.level and force(2).",
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="All that was read, as JSON.")
-def import_(model: Path, beside: tuple[Path, ...], as_json: bool) -> Exit:
+def import_(model: Path, beside: tuple[Path, ...], log: Path | None, as_json: bool) -> Exit:
     """Say what is drawn in a file of Simulink: charts, blocks, types, events, timers; without MATLAB.
 
-    Nothing in the file is executed.  Exit code 2 if something in it has no meaning here.
+    Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
     from rovercheck.checker.commands.import_.run import import_model
 
-    return import_model(model, beside, as_json)
+    return import_model(model, beside, log, as_json)

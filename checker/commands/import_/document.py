@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from typing_extensions import TypedDict
 
+from rovercheck.checker.commands.import_.recorded import RecordingComparison
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import DrawingNote
 from rovercheck.checker.results.exit_code import Exit
@@ -20,15 +21,20 @@ class ImportDocument(TypedDict):
     """What stands in the file, as it is written there."""
     notes: Sequence[DrawingNote]
     """What has no meaning here, or is read otherwise than it is drawn."""
+    compared: RecordingComparison | None
+    """With ``--compare``: the model beside a log."""
 
 
-def document(model: DrawnModel, notes: Sequence[DrawingNote], code: Exit) -> dict[str, Any]:
+def document(
+    model: DrawnModel, notes: Sequence[DrawingNote], compared: RecordingComparison | None, code: Exit
+) -> dict[str, Any]:
     """A model as JSON; its fields are those of :class:`ImportDocument`."""
     return {
         "schema": "rovercheck/import/1",
         "exit": code,
         "model": asdict(model),
         "notes": [asdict(note) for note in notes],
+        "compared": None if compared is None else asdict(compared),
     }
 
 

@@ -6,33 +6,42 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rovercheck.checker.commands.import_.document import document
+from rovercheck.checker.commands.import_.recorded import RecordingComparison, compared_with
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import counted, out, text_width
 from rovercheck.checker.commands.shared.tables import listed
 from rovercheck.checker.commands.shared.text_wrap import filled
+from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.records import DrawnChart, DrawnModel
 from rovercheck.checker.drawn.refused import DrawingNote, notes_of
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.simulink.model import read_model
 
 COLUMNS = ("Chart", "is a", "states", "transitions", "junctions", "functions", "data", "events", "timers")
+MOST_SHOWN = 5
+"""Rows that are shown of those that differ."""
 _TIMERS = re.compile(r"\b(?:after|before|at|every|temporalCount|elapsed|duration|count)\s*\(")
 
 
-def import_model(path: Path, beside: Sequence[Path], as_json: bool) -> Exit:
+def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: bool) -> Exit:
     """Read a model, and say what is in it.  Raises ``ModelError`` for a file that cannot be read."""
     model = read_model(path, beside)
     notes = list(notes_of(model))
+    for chart in model.charts:
+        notes += parsed_chart(chart).notes
+    compared = None if log is None else compared_with(model, log)
     code = Exit.INCONCLUSIVE if any(note.kind == "refused" for note in notes) else Exit.AS_EXPECTED
+    if compared is not None and compared.differences:
+        code = Exit.FAILED
     if as_json:
-        print(json_text(document(model, notes, code), ascii=True))
+        print(json_text(document(model, notes, compared, code), ascii=True))
         return code
     for line in _head(model):
         out.print(line, markup=False)
     if model.charts:
         out.print()
         listed(COLUMNS, [_row(chart) for chart in model.charts])
-    for lines in (_around(model), _types(model), _notes(notes)):
+    for lines in (_around(model), _types(model), _notes(notes), _compared(compared, log)):
         told = list(lines)
         if told:
             out.print()
@@ -96,6 +105,25 @@ def _notes(notes: Sequence[DrawingNote]) -> Iterator[str]:
             yield head
         for note in own:
             yield _wrapped(f"{'✗' if kind == 'refused' else '•'} {note}", "  ")
+
+
+def _compared(found: RecordingComparison | None, log: Path | None) -> Iterator[str]:
+    if found is None or log is None:
+        return
+    rows = counted(found.rows, "row", "rows")
+    if not found.differences:
+        outputs = ", ".join(found.outputs)
+        yield _wrapped(f"✓ {log.name}: in {rows} the model gives what is recorded: {outputs}.")
+    else:
+        yield _wrapped(f"✗ {log.name}: {len(found.differences)} of {rows} differ.")
+    for one in found.differences[:MOST_SHOWN]:
+        told = (f"{name} is {given:g} and recorded {was:g}" for name, (was, given) in one.values.items())
+        yield _wrapped(f"row {one.row} (line {one.line}): {', '.join(told)}", "  ")
+        yield from (_wrapped(f"takes {text}", "    ") for text in one.fired)
+    if len(found.differences) > MOST_SHOWN:
+        yield f"  and {len(found.differences) - MOST_SHOWN} more rows; --json has them all"
+    if found.missing:
+        yield _wrapped(f"not recorded: {', '.join(found.missing)}", "  ")
 
 
 def _wrapped(text: str, indent: str = "") -> str:

@@ -13,9 +13,9 @@ COLON: RangeOperator = ":"
 
 @dataclass(frozen=True, slots=True)
 class OperatorTable:
-    """The operators of a language by their signs.
+    """The operators of a language by their signs; of signs with one meaning the first is the one to write.
 
-    Of signs with one meaning the first is the one to write.  ``infix`` says how strong each binds, all to the left; ``power`` binds stronger than all of them and than
+    ``infix`` says how strong each binds, all to the left; ``power`` binds stronger than all of them and than
     ``prefix``; ``assignment`` says what ``+=`` and its like do besides (nothing, of ``=``).
     """
 

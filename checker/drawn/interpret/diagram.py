@@ -1,0 +1,289 @@
+"""A whole model at work: its diagram, its charts, its MATLAB functions, tick by tick."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from rovercheck.checker.drawn.grammar.syntax import Expression
+from rovercheck.checker.drawn.interpret.blocks import BLOCKS, parameter, parsed_value
+from rovercheck.checker.drawn.interpret.evaluate import Frame
+from rovercheck.checker.drawn.interpret.machine import ChartMachine
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
+from rovercheck.checker.drawn.interpret.statements import StatementRunner
+from rovercheck.checker.drawn.interpret.values import (
+    ChartFault,
+    MatlabValue,
+    NumberRules,
+    Structure,
+    array,
+    double,
+    each_converted,
+    scalars,
+    shape,
+)
+from rovercheck.checker.drawn.interpret.wiring import DELAYS, Wiring, number_of, wired
+from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel, DrawnSystem
+
+Number = int | float
+
+
+class ModelRunner:
+    """Runs a model from its power-up.  Inputs and outputs have flat names: ``probe.level``, ``force(2)``.
+
+    Raises ``ChartFault``, here and in each step, for what has no meaning.
+    """
+
+    def __init__(self, model: DrawnModel, step: str = "") -> None:
+        self.model, self.types = model, TypeTable.of(model)
+        self.step_length = step or model.step
+        self._top = _System(model.system, self)
+        root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
+        self._inports = [root[number] for number in sorted(root)]
+        ends = {number_of(one): one for one in model.system.blocks if one.kind == "Outport"}
+        self._outports = [ends[number] for number in sorted(ends)]
+        self._top.initialize()
+
+    def inputs(self) -> Iterator[str]:
+        """The flat names of all inputs, in the order of their ports."""
+        for port in self._inports:
+            yield from (name for name, _ in _flat(port.name, self._at_rest(port)))
+
+    def step(self, given: Mapping[str, Number]) -> dict[str, Number]:
+        """One step: the outputs by their flat names.  An input that is not given is as at rest."""
+        values = [self._filled(port.name, self._at_rest(port), given) for port in self._inports]
+        found = self._top.step(values)
+        pairs = zip(self._outports, found, strict=True)
+        return {name: one for port, value in pairs for name, one in _flat(port.name, value)}
+
+    def _at_rest(self, port: DrawnBlock) -> MatlabValue:
+        kind = self.types.kind(port.parameters.get("OutDataTypeStr", "Inherit")) or "double"
+        size = port.parameters.get("PortDimensions", "-1")
+        return self.types.initial(kind, *dimensions(size))
+
+    def _filled(self, name: str, at_rest: MatlabValue, given: Mapping[str, Number]) -> MatlabValue:
+        if isinstance(at_rest, Structure):
+            elements = {
+                key: self._filled(f"{name}.{key}", one, given) for key, one in at_rest.elements.items()
+            }
+            return Structure(at_rest.kind, elements)
+        found = [
+            each_converted(double(given[key]), one.kind, NumberRules()) if key in given else one
+            for (key, _), one in zip(_flat(name, at_rest), scalars(at_rest), strict=True)
+        ]
+        return array([one for value in found for one in scalars(value)], *shape(at_rest))
+
+    def outputs(self) -> tuple[str, ...]:
+        """The names of the outputs, as blocks."""
+        return tuple(port.name for port in self._outports)
+
+    @property
+    def fired(self) -> list[str]:
+        """The transitions that charts took in the last step, flow charts too."""
+        return [str(one) for machine in self._top.machines() for one in machine.fired]
+
+    # --- what blocks need ----------------------------------------------------------------------------------
+
+    def chart(self, path: str) -> DrawnChart:
+        """The chart of a block.  Raises ``ChartFault``."""
+        found = [one for one in self.model.charts if one.path == path]
+        if len(found) != 1:
+            raise ChartFault(f"the block {path} has no chart in the file")
+        return found[0]
+
+    def value_of(self, text: str) -> MatlabValue:
+        """The value of a parameter.  Raises ``ChartFault``."""
+        named = {one.name: one.value for one in self.model.parameters}
+        tree = parsed_value(parameter(text, named))
+        runner = StatementRunner(_NoChart.memory(self.types), _NoChart())
+        return runner.value(tree, Frame(StateNode(0, "", "", None), NumberRules()))
+
+
+def _flat(name: str, value: MatlabValue) -> Iterator[tuple[str, Number]]:
+    if isinstance(value, Structure):
+        for key, one in value.elements.items():
+            yield from _flat(f"{name}.{key}", one)
+        return
+    found = scalars(value)
+    for number, one in enumerate(found, 1):
+        yield (name if len(found) == 1 else f"{name}({number})"), one.value
+
+
+@dataclass
+class _Node:
+    """A block at work: ``inputs`` are what feeds its input ports, by their numbers."""
+
+    block: DrawnBlock
+    inputs: list[tuple[str, int] | None]
+    system: "_System | None" = None
+    chart: ChartMachine | None = None
+    control: str = ""
+    fed: tuple[str, int] | None = None
+    """What feeds its control port."""
+    trigger: str = "rising"
+    memory: MatlabValue | None = None
+    outputs: list[MatlabValue] = field(default_factory=list)
+    was: list[float] = field(default_factory=list)
+    """The values of its trigger in the step before."""
+
+
+class _System:
+    """The blocks of a system with their values."""
+
+    def __init__(self, system: DrawnSystem, runner: ModelRunner) -> None:
+        self._runner = runner
+        wiring = wired(system)
+        self._nodes = [self._node(block, wiring) for block in wiring.order]
+        self._by_id = {node.block.id: node for node in self._nodes}
+        ends = [node for node in self._nodes if node.block.kind == "Outport"]
+        self._ends = sorted(ends, key=lambda node: number_of(node.block))
+
+    def _node(self, block: DrawnBlock, wiring: Wiring) -> _Node:
+        ports = [int(port) for target, port in wiring.feeds if target == block.id and port.isdigit()]
+        inputs = [wiring.feeds.get((block.id, str(number))) for number in range(1, max(ports, default=0) + 1)]
+        node = _Node(block, inputs)
+        control = [port for target, port in wiring.feeds if target == block.id and not port.isdigit()]
+        if control:
+            node.control, node.fed = control[0], wiring.feeds[block.id, control[0]]
+        if block.chart:
+            chart = parsed_chart(self._runner.chart(block.chart))
+            if chart.notes:
+                raise ChartFault(str(chart.notes[0]))
+            node.chart = ChartMachine(chart, self._runner.types, self._runner.step_length)
+        elif block.kind == "SubSystem" and block.system is not None:
+            node.system = _System(block.system, self._runner)
+            ports_ = [one for one in block.system.blocks if one.kind == "TriggerPort"]
+            node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
+        elif block.kind in DELAYS:
+            node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
+        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", *_CONTROLS):
+            raise ChartFault(f"the block {block.path}: {block.kind} is not known here")
+        return node
+
+    def initialize(self) -> None:
+        """Charts that are so drawn are entered before the first step."""
+        for node in self._nodes:
+            if node.chart is not None and node.chart.chart.drawn.kind == "chart":
+                node.chart.initialize()
+            if node.system is not None:
+                node.system.initialize()
+
+    def machines(self) -> Iterator[ChartMachine]:
+        """The charts here and in subsystems, in their order of execution."""
+        for node in self._nodes:
+            if node.chart is not None:
+                yield node.chart
+            if node.system is not None:
+                yield from node.system.machines()
+
+    def step(self, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
+        """The outputs of the system in one step."""
+        for node in self._nodes:
+            try:
+                node.outputs = self._executed(node, inputs)
+            except ChartFault as fault:
+                raise ChartFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+        for node in self._nodes:
+            if node.block.kind in DELAYS:
+                [value] = self._values(node)
+                node.memory = value
+        return [self._values(node)[0] for node in self._ends]
+
+    def _executed(self, node: _Node, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
+        block = node.block
+        if block.kind == "Inport":
+            return [inputs[number_of(block) - 1]]
+        if node.memory is not None:
+            return [self._remembered(node)]
+        if block.kind == "Outport" or block.kind in _CONTROLS:
+            return []
+        values = self._values(node)
+        if node.chart is not None:
+            return self._charted(node, node.chart, values)
+        if node.system is not None:
+            if self._runs(node):
+                return node.system.step(values)
+            return node.outputs or [double(0)] * len(node.system._ends)
+        return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
+
+    @staticmethod
+    def _remembered(node: _Node) -> MatlabValue:
+        assert node.memory is not None
+        return node.memory
+
+    def _values(self, node: _Node) -> list[MatlabValue]:
+        return [double(0) if port is None else self._value(port) for port in node.inputs]
+
+    def _value(self, port: tuple[str, int]) -> MatlabValue:
+        node = self._by_id[port[0]]
+        if node.memory is not None:
+            return node.memory
+        return node.outputs[port[1] - 1]
+
+    def _runs(self, node: _Node) -> bool:
+        """Whether a subsystem is executed in this step."""
+        if not node.control or node.fed is None:
+            return True
+        now = [float(one.value) for one in scalars(self._value(node.fed))]
+        if node.control == "enable":
+            return any(one > 0 for one in now)
+        if node.control == "trigger":
+            before, node.was = node.was, now
+            return any(_edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
+        raise ChartFault(f"a subsystem that is controlled by {node.control} is not known here")
+
+    def _charted(
+        self, node: _Node, machine: ChartMachine, values: Sequence[MatlabValue]
+    ) -> list[MatlabValue]:
+        data = machine.chart.root.data
+        for one, value in zip((d for d in data.values() if d.scope == "input"), values, strict=False):
+            machine.memory.write(one.ssid, value)
+        if machine.chart.drawn.kind == "MATLAB function":
+            machine.run_block()
+        else:
+            events = self._events(node, machine)
+            if events is None:
+                machine.step()
+            elif events:
+                machine.step(events)
+        return [machine.memory.values[d.ssid] for d in data.values() if d.scope == "output"]
+
+    def _events(self, node: _Node, machine: ChartMachine) -> list[str] | None:
+        """The input events of this step; ``None`` for a chart without any, which runs in every step."""
+        every = [one for one in machine.chart.root.events.values() if one.scope == "input"]
+        if not every:
+            return None
+        now = [] if node.fed is None else [float(one.value) for one in scalars(self._value(node.fed))]
+        before, node.was = node.was, now
+        found = zip(every, before, now, strict=False)
+        return [one.name for one, old, new in found if _edge(one.trigger, old, new)]
+
+
+_CONTROLS = ("EnablePort", "TriggerPort", "ActionPort")
+
+
+def _edge(kind: str, before: float, now: float) -> bool:
+    """Whether a signal rises or falls through 0 as a trigger of a kind asks for."""
+    if kind in ("function call", "function-call"):
+        raise ChartFault("an event that is a function call is not known here")
+    rises, falls = before <= 0 < now, before > 0 >= now
+    return {"rising": rises, "falling": falls}.get(kind, rises or falls)
+
+
+class _NoChart:
+    """Where a parameter stands: in no chart."""
+
+    @staticmethod
+    def memory(types: TypeTable) -> ChartMemory:
+        return ChartMemory(types, NumberRules(), {})
+
+    def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+        return None
+
+    def sent(self, expression: Expression, frame: Frame) -> bool:
+        return False
+
+    def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
+        raise ChartFault(f"{function.signature.name} is not known here")
+
+
+__all__ = ["ModelRunner"]

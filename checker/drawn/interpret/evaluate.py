@@ -1,0 +1,288 @@
+"""Expressions and statements of charts and MATLAB functions, evaluated as they stand."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+from rovercheck.checker.drawn.grammar.functions import ScriptFunction
+from rovercheck.checker.drawn.grammar.syntax import (
+    Applied,
+    BinaryOperation,
+    ColonRange,
+    Expression,
+    Indexed,
+    LastIndex,
+    Matrix,
+    Member,
+    Name,
+    Number,
+    NumberKind,
+    TextLiteral,
+    UnaryOperation,
+    WholeRange,
+)
+from rovercheck.checker.drawn.interpret.functions import BUILTINS, WITHOUT_EFFECT
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, datum_of
+from rovercheck.checker.drawn.interpret.operations import binary, unary
+from rovercheck.checker.drawn.interpret.values import (
+    LITERAL,
+    ArrayOf,
+    ChartFault,
+    MatlabValue,
+    NumberRules,
+    Scalar,
+    Structure,
+    array,
+    double,
+    each_converted,
+    logical,
+    scalar,
+    scalars,
+    shape,
+)
+from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
+
+MOST_TURNS = 1_000_000
+"""Turns of a loop, after which it is taken for one without end."""
+MOST_CALLS = 100
+
+
+class Dropped(Exception):
+    """What an action would do further is dropped, as the state that it belongs to was left meanwhile."""
+
+
+@dataclass
+class Frame:
+    """Where a text stands: the state whose names it uses, and that its timers belong to.
+
+    ``local``: the variables of a function, if it is one.  ``alive``: asked after each event that is sent.
+    ``persistent`` are those that a function keeps, of which ``kept`` are declared; ``last`` is the meaning of
+    ``end``, and ``calls`` how deep functions call each other.
+    """
+
+    node: StateNode
+    rules: NumberRules
+    alive: Callable[[], bool] = lambda: True
+    local: dict[str, MatlabValue] | None = None
+    persistent: dict[str, MatlabValue] = field(default_factory=dict)
+    kept: frozenset[str] = frozenset()
+    script: Mapping[str, ScriptFunction] = field(default_factory=dict)
+    last: int = 0
+    calls: int = 0
+
+
+class ChartWords(Protocol):
+    """What only the running chart knows: events, states and times."""
+
+    def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+        """The value of an expression of the chart's own, as ``after(3, sec)``; ``None`` if it is none."""
+
+    def sent(self, expression: Expression, frame: Frame) -> bool:
+        """Send the event that a statement is; whether it is one."""
+
+    def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
+        """Call a function of the chart."""
+
+
+class Evaluator(ABC):
+    """Evaluates the texts of one chart; what is of the chart is asked of ``words``."""
+
+    def __init__(self, memory: ChartMemory, words: ChartWords) -> None:
+        self.memory, self._words = memory, words
+
+    # --- expressions ---------------------------------------------------------------------------------------
+
+    def value(self, expression: Expression, frame: Frame) -> MatlabValue:
+        """The value of an expression.  Raises ``ChartFault``."""
+        match expression:
+            case Number(value, kind):
+                return self._number(value.numerator, value.denominator, kind, frame)
+            case Name(name):
+                return self._name(name, expression, frame)
+            case Member() | Applied():
+                return self._one(self._several(expression, frame, 1))
+            case Indexed(array_, index):
+                return self._element(expression, self.value(array_, frame), index, frame)
+            case UnaryOperation(sign, operand):
+                return unary(sign, self.value(operand, frame), frame.rules)
+            case BinaryOperation(sign, left, right):
+                return self._binary(sign, left, right, frame)
+            case Matrix(rows):
+                return self._matrix(rows, frame)
+            case ColonRange():
+                return array(
+                    map(double, self._range(expression, frame)), 1, len(self._range(expression, frame))
+                )
+            case LastIndex():
+                return double(frame.last)
+            case TextLiteral(text):
+                raise ChartFault(f"the text {text!r} has no value here")
+        raise ChartFault("it has no value")
+
+    def truth(self, expression: Expression, frame: Frame) -> bool:
+        """An expression as a condition."""
+        value = self.value(expression, frame)
+        if isinstance(value, Structure):
+            raise ChartFault("a structure is no condition")
+        return value.truth
+
+    @staticmethod
+    def _number(numerator: int, denominator: int, kind: NumberKind, frame: Frame) -> Scalar:
+        whole = denominator == 1 and kind in (NumberKind.INTEGER, NumberKind.BITS)
+        if whole and frame.rules.c:
+            return Scalar(LITERAL, numerator)
+        return Scalar("single" if kind is NumberKind.SINGLE else "double", numerator / denominator)
+
+    def _binary(self, sign: str, left: Expression, right: Expression, frame: Frame) -> MatlabValue:
+        if sign == "&&":
+            return logical(self.truth(left, frame) and self.truth(right, frame))
+        if sign == "||":
+            return logical(self.truth(left, frame) or self.truth(right, frame))
+        return binary(sign, self.value(left, frame), self.value(right, frame), frame.rules)
+
+    def _name(self, name: str, expression: Expression, frame: Frame) -> MatlabValue:
+        if frame.local is not None and name in frame.local:
+            return frame.local[name]
+        if name in frame.kept:
+            return frame.persistent[name]
+        if (datum := datum_of(frame.node, name)) is not None:
+            return self.memory.values[datum.ssid]
+        return self._one(self._several(expression, frame, 1))
+
+    def _several(self, expression: Expression, frame: Frame, wanted: int) -> list[MatlabValue]:
+        """The values of a call, of which so many are wanted; of anything else its value."""
+        found = self._words.word(expression, frame)
+        if found is not None:
+            return [found]
+        match expression:
+            case Member(Name(owner), name) if member := self.memory.types.member(name, owner):
+                if self._is_no_datum(owner, frame):
+                    return [member]
+            case Name(name) if (member := self.memory.types.member(name)) is not None:
+                if name not in frame.script:
+                    return [member]
+        match expression:
+            case Member(structure, name):
+                value = self.value(structure, frame)
+                if isinstance(value, Structure) and name in value.elements:
+                    return [value.elements[name]]
+                raise ChartFault(f"there is no element {name}")
+            case Applied(Name(name), arguments) if self._is_no_datum(name, frame):
+                return self._called(name, arguments, frame)
+            case Applied(whole, arguments):
+                return [self._indexed(self.value(whole, frame), arguments, frame)]
+            case Name(name):
+                return self._called(name, (), frame)
+        return [self.value(expression, frame)]
+
+    def _is_no_datum(self, name: str, frame: Frame) -> bool:
+        local = (frame.local or {}).keys() | frame.kept
+        return name not in local and datum_of(frame.node, name) is None
+
+    @staticmethod
+    def _one(values: Sequence[MatlabValue]) -> MatlabValue:
+        if not values:
+            raise ChartFault("a function that gives nothing stands where a value must")
+        return values[0]
+
+    # --- calls ---------------------------------------------------------------------------------------------
+
+    def _called(self, name: str, arguments: Iterable[Expression], frame: Frame) -> list[MatlabValue]:
+        given = list(arguments)
+        function = next((one.functions[name] for one in frame.node.lineage() if name in one.functions), None)
+        if frame.calls > MOST_CALLS:
+            raise ChartFault(f"{name} calls itself, or more than {MOST_CALLS} functions call each other")
+        if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
+            kind = given.pop()
+            assert isinstance(kind, TextLiteral)
+            [made] = [self.value(given[0], frame)] if name == "cast" else self._called(name, given, frame)
+            return [each_converted(made, self.memory.types.kind(kind.value), frame.rules)]
+        values = [self.value(one, frame) for one in given if not isinstance(one, TextLiteral)]
+        if name in frame.script:
+            return self.script(frame.script[name], values, frame)
+        if function is not None:
+            return self._words.call(function, values, frame.calls + 1)
+        if name in BUILTINS:
+            return [BUILTINS[name](values, frame.rules)]
+        if name in WITHOUT_EFFECT:
+            return []
+        if name in self.memory.types.enumerations:
+            return [each_converted(values[0], f"Enum: {name}", frame.rules)]
+        raise ChartFault(f"{name} is not known here")
+
+    @abstractmethod
+    def script(
+        self, function: ScriptFunction, values: Sequence[MatlabValue], caller: Frame
+    ) -> list[MatlabValue]:
+        """Call a MATLAB function with these values."""
+
+    # --- indices -------------------------------------------------------------------------------------------
+
+    def _element(self, whole: Indexed, value: MatlabValue, index: Expression, frame: Frame) -> MatlabValue:
+        """An element of C, counted from the first index of its datum."""
+        at = int(scalar(self.value(index, frame)).value) - self._first(whole.array, frame)
+        found = scalars(value)
+        if not 0 <= at < len(found):
+            raise ChartFault(f"the index {at} of {len(found)} values")
+        return found[at]
+
+    def _first(self, array_: Expression, frame: Frame) -> int:
+        datum = datum_of(frame.node, array_.name) if isinstance(array_, Name) else None
+        return int(datum.first_index or 0) if datum is not None else 0
+
+    def _indexed(self, value: MatlabValue, indices: Sequence[Expression], frame: Frame) -> MatlabValue:
+        places, size = self._places(value, indices, frame)
+        found = scalars(value)
+        return array((found[at] for at in places), *size)
+
+    def _places(
+        self, value: MatlabValue, indices: Sequence[Expression], frame: Frame
+    ) -> tuple[list[int], tuple[int, int]]:
+        """Where the elements are that indices from 1 name, and in how many rows and columns."""
+        rows, columns = shape(value)
+        if len(indices) == 1:
+            every = self._index(indices[0], rows * columns, frame)
+            by_column = [(at % rows) * columns + at // rows for at in every]
+            return by_column, ((1, len(every)) if rows == 1 else (len(every), 1))
+        down, across = (
+            self._index(index, most, frame) for index, most in zip(indices, (rows, columns), strict=True)
+        )
+        return [r * columns + c for r in down for c in across], (len(down), len(across))
+
+    def _index(self, index: Expression, most: int, frame: Frame) -> list[int]:
+        if isinstance(index, WholeRange):
+            return list(range(most))
+        given = scalars(self.value(index, replace(frame, last=most)))
+        if given and all(one.kind == "logical" for one in given):
+            return [at for at, one in enumerate(given) if one.value]
+        for one in given:
+            if one.value != int(one.value) or not 1 <= one.value <= most:
+                raise ChartFault(f"the index {one.value:g} of {most} values, which are counted from 1")
+        return [int(one.value) - 1 for one in given]
+
+    def _matrix(self, rows: Sequence[Sequence[Expression]], frame: Frame) -> MatlabValue:
+        made = [[self.value(one, frame) for one in row] for row in rows]
+        flat = [[one for value in row for one in scalars(value)] for row in made]
+        width = max(map(len, flat), default=0)
+        if any(len(row) != width for row in flat):
+            raise ChartFault("the rows of a matrix are not as long as each other")
+        kinds = [one.kind for row in flat for one in row]
+        kind = next(
+            (k for k in kinds if k not in ("double", "logical", LITERAL)), kinds[0] if kinds else "double"
+        )
+        values = ArrayOf(kind, len(flat), width, tuple(one for row in flat for one in row))
+        found = each_converted(values, kind, frame.rules) if kinds else values
+        assert isinstance(found, ArrayOf)
+        return array(found.values, found.rows, found.columns)
+
+    def _range(self, one: ColonRange, frame: Frame) -> list[float]:
+        start, stop = (scalar(self.value(end, frame)).value for end in (one.start, one.stop))
+        step = 1 if one.step is None else scalar(self.value(one.step, frame)).value
+        count = int((stop - start) / step + 1e-10) + 1 if step and (stop - start) / step >= 0 else 0
+        if count > MOST_TURNS:
+            raise ChartFault(f"a range of {count:,} numbers")
+        return [start + step * number for number in range(count)]
+
+
+__all__ = ["ChartWords", "Dropped", "Evaluator", "Frame"]

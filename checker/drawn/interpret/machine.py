@@ -1,0 +1,394 @@
+"""A chart at work, as Stateflow executes it: searching paths, leaving and entering states, sending events.
+
+The rules are those of the user's guide of Stateflow, in the order in which it gives them.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from typing import Literal
+
+from rovercheck.checker.drawn.grammar.expressions import parse_expression
+from rovercheck.checker.drawn.grammar.labels import SectionKind
+from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.interpret.clock import ChartClock
+from rovercheck.checker.drawn.interpret.evaluate import Dropped, Frame
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
+from rovercheck.checker.drawn.interpret.names import names_in, state_of
+from rovercheck.checker.drawn.interpret.statements import StatementRunner
+from rovercheck.checker.drawn.interpret.values import ChartFault, MatlabValue, NumberRules, Scalar, logical
+from rovercheck.checker.drawn.parsed import (
+    FunctionNode,
+    JunctionNode,
+    ParsedChart,
+    StateNode,
+    TransitionNode,
+)
+
+MOST_SEGMENTS = 100_000
+"""Transitions that are tried in one search, after which junctions are taken for a loop without end."""
+MOST_NESTED = 50
+"""Events that are sent while others are answered."""
+
+END: Literal["end"] = "end"
+Found = list[TransitionNode] | Literal["end"] | None
+"""A complete path; the end of the search at a junction without a way on; nothing."""
+
+
+class ChartMachine:
+    """One chart with its memory.  ``ports`` are the types of its inherited inputs and outputs."""
+
+    def __init__(
+        self, chart: ParsedChart, types: TypeTable, step: str, ports: Mapping[str, str] | None = None
+    ) -> None:
+        self.chart = chart
+        self.rules = NumberRules(chart.language.name != "MATLAB", chart.drawn.saturates)
+        self.memory = ChartMemory(types, self.rules, ports or {})
+        self.clock = ChartClock(chart, step)
+        self._runner = StatementRunner(self.memory, self)
+        self._persistent: dict[int, dict[str, MatlabValue]] = {}
+        self.active: set[StateNode] = set()
+        self._child: dict[StateNode, StateNode] = {}
+        self._last: dict[StateNode, StateNode] = {}
+        self._events: list[str] = []
+        self._tried = 0
+        self.begun = False
+        self.fired: list[TransitionNode] = []
+        """The transitions taken in this step, those of flow charts too."""
+        for node in chart.root.every():
+            for one in node.data.values():
+                self.memory.declare(one, self._initial)
+            for function in node.functions.values():
+                for one in function.data.values():
+                    self.memory.declare(one, self._initial)
+
+    def _initial(self, text: str) -> MatlabValue:
+        return self._runner.value(parse_expression(text, self.chart.language), self._frame(self.chart.root))
+
+    def _frame(self, node: StateNode, holds: StateNode | None = None) -> Frame:
+        """Where a text of a state stands; what it does further is dropped once ``holds`` is not active."""
+        if holds is None:
+            return Frame(node, self.rules)
+        return Frame(node, self.rules, lambda: self._is_active(holds))
+
+    def _is_active(self, node: StateNode) -> bool:
+        return node.parent is None or node in self.active
+
+    # --- a step --------------------------------------------------------------------------------------------
+
+    def initialize(self) -> None:
+        """Enter the chart before the first step, if it is so drawn."""
+        if self.chart.drawn.at_initialization:
+            self._first()
+
+    def step(self, events: Sequence[str] = ()) -> None:
+        """One step with the inputs as they are; with input events, one execution for each of them."""
+        self.fired = []
+        self.memory.note_start()
+        self.clock.begin(self.active)
+        if self.chart.drawn.initializes_outputs:
+            for one in self.chart.root.data.values():
+                if one.scope == "output":
+                    self.memory.reset(one.ssid)
+        for event in events or ("",):
+            self._events = [event] if event else []
+            if self.begun:
+                self._execute_root()
+            else:
+                self._first()
+            self._events = []
+        self.clock.end(self.active, self._holds)
+
+    def _first(self) -> None:
+        self.begun = True
+        root = self.chart.root
+        if root.children or any(one.label.events for one in root.defaults):
+            with suppress(Dropped):
+                self._enter_children(root, [])
+        else:
+            self._flow(root)
+
+    def _execute_root(self) -> None:
+        root = self.chart.root
+        if root.children:
+            self._execute_children(root)
+        else:
+            self._flow(root)
+
+    def _flow(self, root: StateNode) -> None:
+        """A chart without states runs its flow chart in every step."""
+        found = self._path(root.defaults, root)
+        if isinstance(found, list):
+            for one in found:
+                self._runner.run(one.label.transition_actions, self._frame(one.holder))
+
+    def _execute(self, node: StateNode) -> None:
+        """An active state: its outer transitions, its during actions, its inner transitions, its children."""
+        try:
+            found = self._path(node.outer, node)
+            if isinstance(found, list):
+                self._take(found, node)
+                return
+            frame = self._frame(node, node)
+            self._runner.run(node.sections.get(SectionKind.DURING, ()), frame)
+            for event, actions in node.on_events:
+                if self._occurs(event, frame):
+                    self._runner.run(actions, frame)
+            found = self._path(node.inner, node)
+        except Dropped:
+            return
+        if isinstance(found, list):
+            self._take(found, node)
+        else:
+            self._execute_children(node)
+
+    def _execute_children(self, node: StateNode) -> None:
+        if not node.parallel:
+            if (child := self._child.get(node)) is not None:
+                self._execute(child)
+            return
+        for region in node.children:
+            if not self._is_active(node):
+                return
+            if region in self.active:
+                self._execute(region)
+
+    # --- paths ---------------------------------------------------------------------------------------------
+
+    def _path(self, transitions: Sequence[TransitionNode], source: StateNode) -> Found:
+        """The first complete path that begins with one of some transitions.  Raises ``Dropped``."""
+        self._tried = 0
+        return self._search(transitions, source)
+
+    def _search(self, transitions: Sequence[TransitionNode], source: StateNode) -> Found:
+        for one in transitions:
+            self._tried += 1
+            if self._tried > MOST_SEGMENTS:
+                raise ChartFault(f"{one} is in a loop of junctions without end: no guard ends it")
+            frame = self._frame(source, source)
+            if not self._valid(one, frame):
+                continue
+            self._runner.run(one.label.condition_actions, frame)
+            if one.target is None:
+                continue
+            if isinstance(one.target, StateNode) or one.target.history:
+                return [one]
+            if not one.target.outgoing:
+                return END
+            found = self._search(one.target.outgoing, source)
+            if found == END:
+                return END
+            if isinstance(found, list):
+                return [one, *found]
+        return None
+
+    def _valid(self, one: TransitionNode, frame: Frame) -> bool:
+        label = one.label
+        if label.events and not any(self._occurs(event, frame) for event in label.events):
+            return False
+        try:
+            return label.guard is None or self._runner.truth(label.guard, frame)
+        except ChartFault as fault:
+            raise ChartFault(f"{one}: {fault}") from fault
+
+    def _occurs(self, event: Expression, frame: Frame) -> bool:
+        """Whether an event is the current one, or a temporal condition holds."""
+        match event:
+            case Name(name) | Member(_, name):
+                return bool(self._events) and self._events[-1] == name
+        value = self.clock.word(event, frame, self._now, self._runner)
+        if value is None:
+            raise ChartFault("it is neither an event nor a time")
+        return isinstance(value, Scalar) and value.truth
+
+    @property
+    def _now(self) -> str:
+        return self._events[-1] if self._events else ""
+
+    # --- leaving and entering ------------------------------------------------------------------------------
+
+    def _take(self, path: Sequence[TransitionNode], source: StateNode) -> None:
+        """Leave, act and enter along a path; what an early return drops is dropped."""
+        self.fired += path
+        scope = self._scope(path, source)
+        with suppress(Dropped):
+            self._exit_children(scope)
+            for one in path:
+                frame = Frame(source, self.rules, lambda: self._may_go_on(scope))
+                self._runner.run(one.label.transition_actions, frame)
+            target = path[-1].target
+            assert target is not None, "a complete path ends at a state"
+            self._enter_children(scope, self._chain(scope, target))
+
+    def _scope(self, path: Sequence[TransitionNode], source: StateNode) -> StateNode:
+        """The innermost state that holds all of a path; an outer transition leaves its source in any case."""
+        holders = [list(one.holder.lineage())[::-1] for one in path]
+        scope = self.chart.root
+        for nodes in zip(*holders, strict=False):
+            if any(node is not nodes[0] for node in nodes):
+                break
+            scope = nodes[0]
+        leaves = path[0].source is source and not path[0].drawn.inner
+        if leaves and source in scope.lineage() and source.parent is not None:
+            return source.parent
+        return scope
+
+    def _may_go_on(self, scope: StateNode) -> bool:
+        """Whether a transition may still be ended: its scope is active, and no state in it."""
+        return self._is_active(scope) and not any(child in self.active for child in scope.children)
+
+    @staticmethod
+    def _chain(scope: StateNode, target: StateNode | JunctionNode) -> list[StateNode]:
+        """The states from below a scope down to a target; a history junction stands for its state."""
+        node = target.holder if isinstance(target, JunctionNode) else target
+        chain: list[StateNode] = []
+        for one in node.lineage():
+            if one is scope:
+                break
+            chain.insert(0, one)
+        return chain
+
+    def _exit_children(self, node: StateNode) -> None:
+        for child in [one for one in reversed(node.children) if one in self.active]:
+            if child in self.active:
+                self._exit(child)
+
+    def _exit(self, node: StateNode) -> None:
+        """Inner states first; it is active while its exit action runs."""
+        self._exit_children(node)
+        if node not in self.active:
+            return
+        self._runner.run(node.sections.get(SectionKind.EXIT, ()), self._frame(node, node))
+        self.active.discard(node)
+        if node.parent is not None:
+            self._last[node.parent] = node
+            self._child.pop(node.parent, None)
+
+    def _enter(self, node: StateNode, chain: Sequence[StateNode]) -> None:
+        """A state becomes active, then its entry action runs, then what is in it is entered."""
+        assert node.parent is not None
+        self.active.add(node)
+        self._child[node.parent] = node
+        self.clock.entered(node)
+        self._runner.run(node.sections.get(SectionKind.ENTRY, ()), self._frame(node, node))
+        self._enter_children(node, chain)
+
+    def _enter_children(self, node: StateNode, chain: Sequence[StateNode]) -> None:
+        if node.parallel:
+            for region in node.children:
+                if not self._is_active(node):
+                    raise Dropped
+                if region not in self.active:
+                    self._enter(region, chain[1:] if chain and chain[0] is region else [])
+        elif chain:
+            self._enter(chain[0], chain[1:])
+        elif node.history is not None and node in self._last:
+            self._enter(self._last[node], [])
+        elif node.children:
+            found = self._path(node.defaults, node)
+            if not isinstance(found, list):
+                raise ChartFault(f"no default transition of {node.path} leads to a state now")
+            self.fired += found
+            for one in found:
+                frame = Frame(node, self.rules, lambda: self._may_go_on(node))
+                self._runner.run(one.label.transition_actions, frame)
+            target = found[-1].target
+            assert target is not None
+            self._enter_children(node, self._chain(node, target))
+
+    # --- words of the chart --------------------------------------------------------------------------------
+
+    def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+        """Times, changes, and whether a state is active."""
+        match expression:
+            case Applied(Name("in"), (state,)):
+                return logical(state_of(state, frame.node) in self.active)
+        return self.clock.word(expression, frame, self._now, self._runner)
+
+    def _holds(self, condition: Expression, node: StateNode) -> bool:
+        return self._runner.truth(condition, self._frame(node))
+
+    def sent(self, expression: Expression, frame: Frame) -> bool:
+        """Send an event to the whole chart, or to one state, and have it answered at once."""
+        match expression:
+            case Applied(Name("send"), (event, *to)) if len(to) < 2:
+                name, state = names_in(event)[-1], to[0] if to else None
+                owner = event.owner if isinstance(event, Member) and state is None else state
+            case Name(name) if self._is_event(name, frame):
+                owner = None
+            case Member(owner, name) if self._is_event(name, frame):
+                pass
+            case _:
+                return False
+        self._broadcast(name, None if owner is None else state_of(owner, frame.node))
+        return True
+
+    def _is_event(self, name: str, frame: Frame) -> bool:
+        local = frame.local or {}
+        return name not in local and any(name in node.events for node in self.chart.root.every())
+
+    def _broadcast(self, name: str, receiver: StateNode | None) -> None:
+        if len(self._events) >= MOST_NESTED:
+            raise ChartFault(f"{name} is sent while {MOST_NESTED} events are answered: they send each other")
+        if receiver is not None and receiver not in self.active:
+            return
+        self.clock.saw(name, self.active)
+        self._events.append(name)
+        tried, self._tried = self._tried, 0
+        try:
+            if receiver is None:
+                self._execute_root()
+            else:
+                self._execute(receiver)
+        finally:
+            self._events.pop()
+            self._tried = tried
+
+    def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
+        """A function of the chart: a MATLAB function, or a flow chart with its own data."""
+        if function.script:
+            script = {one.signature.name: one for one in function.script}
+            frame = Frame(function.holder, self.rules, script=script, calls=calls)
+            frame.persistent = self._persistent.setdefault(function.drawn.ssid, {})
+            return self._runner.script(function.script[0], arguments, frame)
+        if function.flow is None or function.drawn.function == "Simulink":
+            raise ChartFault(f"{function.signature.name} is a function that is not known here")
+        flow, signature = function.flow, function.signature
+        for name, one in flow.data.items():
+            self.memory.reset(one.ssid)
+            if name in signature.inputs:
+                self.memory.write(one.ssid, arguments[signature.inputs.index(name)])
+        frame = Frame(flow, self.rules, calls=calls)
+        self._run_flow(flow.defaults, frame)
+        return [self.memory.values[flow.data[name].ssid] for name in signature.outputs]
+
+    def _run_flow(self, transitions: Sequence[TransitionNode], frame: Frame) -> bool:
+        """Whether the flow of a function came to an end; all of its actions run at once."""
+        for one in transitions:
+            self._tried += 1
+            if self._tried > MOST_SEGMENTS:
+                raise ChartFault(f"{one} is in a loop of junctions without end: no guard ends it")
+            if self._valid(one, frame):
+                self._runner.run(one.label.condition_actions, frame)
+                self._runner.run(one.label.transition_actions, frame)
+                target = one.target
+                if not isinstance(target, JunctionNode) or not target.outgoing:
+                    return True
+                if self._run_flow(target.outgoing, frame):
+                    return True
+        return False
+
+    # --- a MATLAB function as a block ----------------------------------------------------------------------
+
+    def run_block(self) -> None:
+        """Execute the function of a block: its values are matched with the data by name."""
+        [function] = self.chart.root.functions.values()
+        entry = function.script[0]
+        data = self.chart.root.data
+        names = (name for name in entry.signature.inputs if name is not None)
+        given = [self.memory.values[data[name].ssid] for name in names if name in data]
+        for name, value in zip(entry.signature.outputs, self.call(function, given, 0), strict=False):
+            if name in data:
+                self.memory.write(data[name].ssid, value)
+
+
+__all__ = ["ChartMachine"]

@@ -1,0 +1,163 @@
+"""The data of a chart while it runs: their types, their values, and what they were at the start of steps."""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from rovercheck.checker.drawn.interpret.values import (
+    FALSE,
+    TYPES,
+    ChartFault,
+    MatlabValue,
+    NumberRules,
+    Scalar,
+    Structure,
+    array,
+    double,
+    each_converted,
+    scalars,
+    shape,
+)
+from rovercheck.checker.drawn.parsed import StateNode
+from rovercheck.checker.drawn.records import DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
+
+ENUM, BUS = "Enum:", "Bus:"
+_SIZE = re.compile(r"\d{1,6}")
+
+
+@dataclass(frozen=True)
+class TypeTable:
+    """The types of a model by their names."""
+
+    enumerations: Mapping[str, DrawnEnumeration] = field(default_factory=dict)
+    buses: Mapping[str, DrawnBus] = field(default_factory=dict)
+
+    @staticmethod
+    def of(model: DrawnModel) -> "TypeTable":
+        """Those of a model."""
+        enumerations = {one.name: one for one in model.enumerations}
+        return TypeTable(enumerations, {one.name: one for one in model.buses})
+
+    def kind(self, written: str) -> str:
+        """A type as values have it; empty where it is inherited.  Raises ``ChartFault``."""
+        text = written.strip()
+        if text.startswith("Inherit"):
+            return ""
+        if text in ("boolean", "logical"):
+            return "logical"
+        if text in TYPES:
+            return text
+        for prefix, names in ((ENUM, self.enumerations), (BUS, self.buses)):
+            name = text.removeprefix(prefix).strip()
+            if text.startswith(prefix) or name in names:
+                if name not in names:
+                    raise ChartFault(f"the type {name} is not there: name the file that defines it")
+                return f"{prefix} {name}"
+        raise ChartFault(f"the type {text!r} is not known")
+
+    def initial(self, kind: str, rows: int = 1, columns: int = 1) -> MatlabValue:
+        """The value of a type that nobody has written to: 0, false, the default member."""
+        if kind.startswith(BUS):
+            bus = self.buses[kind.removeprefix(BUS).strip()]
+            elements = {
+                one.name: self.initial(self.kind(one.type), *dimensions(one.dimensions))
+                for one in bus.elements
+            }
+            return Structure(kind, elements)
+        one = Scalar(kind, 0.0 if kind in ("double", "single") else 0)
+        if kind.startswith(ENUM):
+            enumeration = self.enumerations[kind.removeprefix(ENUM).strip()]
+            one = Scalar(kind, enumeration.members[enumeration.default])
+        elif kind == "logical":
+            one = FALSE
+        return array([one] * (rows * columns), rows, columns, kind)
+
+    def member(self, name: str, owner: str = "") -> Scalar | None:
+        """A member of an enumeration, by its name alone if that is in one only."""
+        found = [
+            one
+            for one in self.enumerations.values()
+            if name in one.members and (not owner or one.name == owner)
+        ]
+        if len(found) > 1:
+            told = " and ".join(one.name for one in found)
+            raise ChartFault(f"{name} is in {told}: write {found[0].name}.{name}")
+        return Scalar(f"{ENUM} {found[0].name}", found[0].members[name]) if found else None
+
+
+def dimensions(text: str) -> tuple[int, int]:
+    """Rows and columns of a size as written: ``[1 3]``, ``3``, ``-1``."""
+    if text.strip() in ("", "-1"):
+        return 1, 1
+    sizes = [int(size) for size in _SIZE.findall(text)]
+    if len(sizes) == 1:
+        return sizes[0], 1
+    if len(sizes) != 2:
+        raise ChartFault(f"a size of {text!r}: matrices have two dimensions here")
+    return sizes[0], sizes[1]
+
+
+class ChartMemory:
+    """The values of a chart's data.  ``ports``: the types of inherited inputs and outputs, by name."""
+
+    def __init__(self, types: TypeTable, rules: NumberRules, ports: Mapping[str, str]) -> None:
+        self.types, self.rules, self._ports = types, rules, ports
+        self._data: dict[int, DrawnData] = {}
+        self._kinds: dict[int, str] = {}
+        self._initial: dict[int, MatlabValue] = {}
+        self.values: dict[int, MatlabValue] = {}
+        self.start: dict[int, MatlabValue] = {}
+        """What the data were at the start of this step."""
+        self.before: dict[int, MatlabValue] = {}
+        """And at the start of the step before, if there was one."""
+
+    def declare(self, one: DrawnData, value_of: Callable[[str], MatlabValue]) -> None:
+        """A datum with its initial value.  Raises ``ChartFault``."""
+        kind = self.types.kind(one.type) or self._ports.get(one.name, "")
+        rows, columns = dimensions(one.size)
+        self._data[one.ssid], self._kinds[one.ssid] = one, kind
+        value = self.types.initial(kind or "double", rows, columns)
+        if one.initial.strip():
+            value = self._fitted(value_of(one.initial), kind, (rows, columns))
+        self.values[one.ssid] = self._initial[one.ssid] = value
+
+    def _fitted(self, value: MatlabValue, kind: str, size: tuple[int, int]) -> MatlabValue:
+        made = each_converted(value, kind, self.rules) if kind else value
+        if size != (1, 1) and shape(made) == (1, 1):
+            [one] = scalars(made)
+            return array([one] * (size[0] * size[1]), *size)
+        return made
+
+    def write(self, ssid: int, value: MatlabValue) -> None:
+        """A new value, in the type of the datum; one without a type takes that of its first value."""
+        kind = self._kinds[ssid]
+        if not kind:
+            kind = self._kinds[ssid] = value.kind
+            kind = self._kinds[ssid] = "double" if kind == "literal" else kind
+        if isinstance(value, Structure) or kind.startswith(BUS):
+            if value.kind != kind:
+                raise ChartFault(f"{self._data[ssid].name} is of {kind}, and its value of {value.kind}")
+            self.values[ssid] = value
+            return
+        size = shape(self._initial[ssid])
+        made = self._fitted(value, kind, size)
+        if shape(made) != size:
+            told = "x".join(map(str, shape(made)))
+            raise ChartFault(f"{self._data[ssid].name} is of {size[0]}x{size[1]}, and its value of {told}")
+        self.values[ssid] = made
+
+    def reset(self, ssid: int) -> None:
+        """Its initial value again."""
+        self.values[ssid] = self._initial[ssid]
+
+    def note_start(self) -> None:
+        """A step begins."""
+        self.before, self.start = self.start, dict(self.values)
+
+
+def datum_of(node: StateNode, name: str) -> DrawnData | None:
+    """The datum that a name means in a state: that of the nearest state around it."""
+    return next((one.data[name] for one in node.lineage() if name in one.data), None)
+
+
+__all__ = ["BUS", "ENUM", "ChartMemory", "TypeTable", "datum_of", "dimensions", "double"]

@@ -1,0 +1,131 @@
+"""Which output feeds which input: through subsystems that only group, Goto and From, and in which order."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
+
+Port = tuple[str, int]
+"""A block, by its id, and the number of one of its outputs."""
+CONTROL = {"EnablePort": "enable", "TriggerPort": "trigger", "ActionPort": "ifaction"}
+DELAYS = ("UnitDelay", "Memory")
+
+
+@dataclass
+class Wiring:
+    """The blocks of a system that do something, in their order of execution, and what feeds them.
+
+    Of the inputs ``feeds`` says which output each is, by the block and the name of its port; what is fed by
+    an Inport of the system itself is fed by that block.
+    """
+
+    order: list[DrawnBlock] = field(default_factory=list)
+    feeds: dict[tuple[str, str], Port] = field(default_factory=dict)
+
+
+def wired(system: DrawnSystem) -> Wiring:
+    """The wiring of a system.  Raises ``ChartFault`` for blocks that feed themselves without a delay."""
+    return _Wires(system).wiring()
+
+
+def is_group(block: DrawnBlock) -> bool:
+    """Whether a block only groups others: it has no control and is not atomic."""
+    if block.kind != "SubSystem" or block.chart or block.system is None:
+        return False
+    atomic = block.parameters.get("TreatAsAtomicUnit") == "on"
+    return not atomic and not any(one.kind in CONTROL for one in block.system.blocks)
+
+
+def number_of(block: DrawnBlock) -> int:
+    """The number of an Inport or Outport."""
+    return int(block.parameters.get("Port", "1"))
+
+
+class _Wires:
+    def __init__(self, system: DrawnSystem) -> None:
+        self._system = system
+        self._blocks: dict[str, DrawnBlock] = {}
+        self._in: dict[str, DrawnBlock] = {}
+        self._lines: dict[tuple[str, str], Port] = {}
+        self._gotos: dict[str, list[DrawnBlock]] = {}
+        self._take(system, None)
+
+    def _take(self, system: DrawnSystem, group: DrawnBlock | None) -> None:
+        for line in system.lines:
+            self._lines[line.target, line.to_port] = line.source, line.from_port
+        for block in system.blocks:
+            self._blocks[block.id] = block
+            if group is not None:
+                self._in[block.id] = group
+            if block.kind == "Goto":
+                self._gotos.setdefault(block.parameters.get("GotoTag", "A"), []).append(block)
+            if is_group(block) and block.system is not None:
+                self._take(block.system, block)
+
+    def wiring(self) -> Wiring:
+        found = Wiring()
+        real = [block for block in self._blocks.values() if self._is_real(block)]
+        for target, port in list(self._lines):
+            if target in self._blocks and self._is_real(self._blocks[target]):
+                source = self._source(self._lines[target, port])
+                if source is not None:
+                    found.feeds[target, port] = source
+        found.order = _ordered(real, found.feeds)
+        return found
+
+    def _is_real(self, block: DrawnBlock) -> bool:
+        grouped = block.id in self._in and block.kind in ("Inport", "Outport")
+        return not (is_group(block) or block.kind in ("Goto", "From", "GotoTagVisibility") or grouped)
+
+    def _source(self, port: Port) -> Port | None:
+        """The output of a block that does something, behind others; ``None``: nothing is connected."""
+        seen = set[Port]()
+        found: Port | None = port
+        while found is not None and found not in seen:
+            seen.add(found)
+            block = self._blocks.get(found[0])
+            if block is None or self._is_real(block):
+                return found
+            if block.kind == "From":
+                found = self._lines.get((self._goto(block).id, "1"))
+            elif block.kind == "Inport":
+                found = self._lines.get((self._in[block.id].id, str(number_of(block))))
+            elif block.system is not None:
+                ends = (o for o in block.system.blocks if o.kind == "Outport" and number_of(o) == found[1])
+                end = next(ends, None)
+                found = None if end is None else self._lines.get((end.id, "1"))
+        return None
+
+    def _goto(self, block: DrawnBlock) -> DrawnBlock:
+        """The Goto with the tag of a From: the one in its own system, else the only one there is."""
+        tag = block.parameters.get("GotoTag", "A")
+        every = self._gotos.get(tag, [])
+        near = [one for one in every if self._in.get(one.id) is self._in.get(block.id)]
+        if len(near or every) != 1:
+            raise ChartFault(f"the From {block.path}: there are {len(near or every)} Goto of the tag {tag}")
+        return (near or every)[0]
+
+
+def _ordered(blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port]) -> list[DrawnBlock]:
+    """Each block after those that feed it directly; a delay gives what it got a step before."""
+    every = {block.id: block for block in blocks}
+    before: dict[str, list[str]] = {block: [] for block in every}
+    for (target, _), (source, _) in feeds.items():
+        if every[target].kind not in DELAYS and source in every and every[source].kind not in DELAYS:
+            before[target].append(source)
+    return [every[name] for name in _sorted(before)]
+
+
+def _sorted(before: Mapping[str, list[str]]) -> Iterator[str]:
+    done, waiting = set[str](), list(before)
+    while waiting:
+        ready = [one for one in waiting if all(other in done for other in before[one])]
+        if not ready:
+            raise ChartFault(f"the blocks {', '.join(waiting[:5])} feed each other without a delay")
+        yield from ready
+        done.update(ready)
+        waiting = [one for one in waiting if one not in done]
+
+
+__all__ = ["CONTROL", "DELAYS", "Port", "Wiring", "is_group", "number_of", "wired"]

@@ -1,0 +1,246 @@
+"""A chart as a tree of states with its texts parsed: who is in whom, and which transitions are tried in which
+order.  What it means is said elsewhere, twice.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from rovercheck.checker.drawn.grammar.actions import ActionStatement
+from rovercheck.checker.drawn.grammar.errors import GrammarError
+from rovercheck.checker.drawn.grammar.functions import (
+    FunctionSignature,
+    ScriptFunction,
+    parse_script,
+    parse_signature,
+)
+from rovercheck.checker.drawn.grammar.labels import (
+    SectionKind,
+    TransitionLabel,
+    parse_state_label,
+    parse_transition_label,
+)
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression
+from rovercheck.checker.drawn.records import (
+    DrawnChart,
+    DrawnContent,
+    DrawnData,
+    DrawnEvent,
+    DrawnState,
+    DrawnTransition,
+)
+from rovercheck.checker.drawn.refused import DrawingNote, label_of
+from rovercheck.spec_model.lang.errors import ModelError
+
+LANGUAGES: Mapping[str, ActionLanguage] = {
+    "MATLAB": ActionLanguage.MATLAB, "C": ActionLanguage.C, "C with bit operations": ActionLanguage.C_BITS
+}  # fmt: skip
+
+
+@dataclass(eq=False)
+class JunctionNode:
+    """A junction with the transitions that leave it, in their order."""
+
+    ssid: int
+    holder: "StateNode"
+    history: bool
+    outgoing: list["TransitionNode"] = field(default_factory=list)
+
+
+@dataclass(eq=False)
+class TransitionNode:
+    """A transition; ``holder`` is the state, or the chart, that it is drawn in."""
+
+    drawn: DrawnTransition
+    label: TransitionLabel
+    holder: "StateNode"
+    source: "StateNode | JunctionNode | None" = None
+    target: "StateNode | JunctionNode | None" = None
+
+    def __str__(self) -> str:
+        return f"the transition `{label_of(self.drawn)}` (SSID {self.drawn.ssid}) in {self.holder.path}"
+
+
+@dataclass(eq=False)
+class StateNode:
+    """A state, or the chart as a whole, which has no parent.
+
+    ``children`` are its states, regions in their order; those in a box are of the level above.
+    """
+
+    ssid: int
+    name: str
+    path: str
+    parent: "StateNode | None"
+    parallel: bool = False
+    order: int = 0
+    children: list["StateNode"] = field(default_factory=list)
+    sections: Mapping[SectionKind, Sequence[ActionStatement]] = field(default_factory=dict)
+    on_events: Sequence[tuple[Expression, Sequence[ActionStatement]]] = ()
+    outer: list[TransitionNode] = field(default_factory=list)
+    inner: list[TransitionNode] = field(default_factory=list)
+    defaults: list[TransitionNode] = field(default_factory=list)
+    history: JunctionNode | None = None
+    data: Mapping[str, DrawnData] = field(default_factory=dict)
+    events: Mapping[str, DrawnEvent] = field(default_factory=dict)
+    functions: dict[str, "FunctionNode"] = field(default_factory=dict)
+
+    def lineage(self) -> Iterator["StateNode"]:
+        """This state and those that it is in, up to the chart."""
+        node: StateNode | None = self
+        while node is not None:
+            yield node
+            node = node.parent
+
+    def every(self) -> Iterator["StateNode"]:
+        """This state and all in it, outer ones first."""
+        yield self
+        for child in self.children:
+            yield from child.every()
+
+
+@dataclass(eq=False)
+class FunctionNode:
+    """A function of a chart: its script, or its flow chart, the transitions that begin it."""
+
+    drawn: DrawnState
+    signature: FunctionSignature
+    holder: StateNode
+    script: tuple[ScriptFunction, ...] = ()
+    flow: StateNode | None = None
+    data: Mapping[str, DrawnData] = field(default_factory=dict)
+
+
+@dataclass(eq=False)
+class ParsedChart:
+    """A chart with all of its texts parsed; ``notes`` tell of texts that cannot be."""
+
+    drawn: DrawnChart
+    language: ActionLanguage
+    root: StateNode
+    states: Mapping[int, StateNode]
+    junctions: Mapping[int, JunctionNode]
+    transitions: Sequence[TransitionNode]
+    notes: Sequence[DrawingNote] = ()
+
+
+def parsed_chart(chart: DrawnChart) -> ParsedChart:
+    """The tree of a chart.  What cannot be parsed is left out, with a note."""
+    return _Parser(chart).chart()
+
+
+class _Parser:
+    def __init__(self, chart: DrawnChart) -> None:
+        self._chart, self._language = chart, LANGUAGES[chart.language]
+        self._states: dict[int, StateNode] = {}
+        self._junctions: dict[int, JunctionNode] = {}
+        self._transitions: list[TransitionNode] = []
+        self._notes: list[DrawingNote] = []
+
+    def chart(self) -> ParsedChart:
+        root = StateNode(0, self._chart.name, self._chart.path, None, self._chart.parallel)
+        self._level(root, self._chart.content)
+        for one in self._transitions:
+            self._connect(one)
+        for node in (root, *self._states.values()):
+            node.children.sort(key=lambda child: child.order)
+            for some in (node.outer, node.inner, node.defaults):
+                some.sort(key=lambda one: one.drawn.order)
+        for junction in self._junctions.values():
+            junction.outgoing.sort(key=lambda one: one.drawn.order)
+        return ParsedChart(
+            self._chart, self._language, root, self._states, self._junctions, self._transitions, self._notes
+        )
+
+    def _level(self, node: StateNode, content: DrawnContent) -> None:
+        """What is drawn in a state; a box is a namespace only."""
+        node.data = {**node.data, **{one.name: one for one in content.data}}
+        node.events = {**node.events, **{one.name: one for one in content.events}}
+        for one in content.junctions:
+            junction = self._junctions[one.ssid] = JunctionNode(one.ssid, node, one.history)
+            if one.history:
+                node.history = junction
+        for state in content.states:
+            if state.kind == "box":
+                self._level(node, state.content)
+            elif state.kind == "function":
+                self._function(node, state)
+            elif state.kind != "note":
+                self._state(node, state)
+        for transition in content.transitions:
+            label = self._label(node, transition)
+            if label is not None:
+                self._transitions.append(TransitionNode(transition, label, node))
+
+    def _state(self, parent: StateNode, state: DrawnState) -> None:
+        path = f"{parent.path}/{state.name}"
+        node = StateNode(state.ssid, state.name, path, parent, state.parallel, state.order)
+        parent.children.append(node)
+        self._states[state.ssid] = node
+        try:
+            label = parse_state_label(state.label, self._language)
+        except GrammarError as error:
+            self._note(parent.path, f"the state {state.name}", error, state.ssid, state.line)
+        else:
+            sections: dict[SectionKind, list[ActionStatement]] = {}
+            on_events: list[tuple[Expression, Sequence[ActionStatement]]] = []
+            for section in label.sections:
+                for kind in section.kinds:
+                    if kind is SectionKind.ON:
+                        on_events += ((event, section.statements) for event in section.events)
+                    else:
+                        sections.setdefault(kind, []).extend(section.statements)
+            node.sections, node.on_events = sections, on_events
+        self._level(node, state.content)
+
+    def _label(self, node: StateNode, transition: DrawnTransition) -> TransitionLabel | None:
+        try:
+            return parse_transition_label(transition.label, self._language)
+        except GrammarError as error:
+            what = f"the transition `{label_of(transition)}`"
+            self._note(node.path, what, error, transition.ssid, transition.line)
+            return None
+
+    def _connect(self, one: TransitionNode) -> None:
+        ends = []
+        for ssid in (one.drawn.source, one.drawn.target):
+            end = None if ssid is None else self._states.get(ssid) or self._junctions.get(ssid)
+            if ssid is not None and end is None:
+                raise ModelError(
+                    f"{one}: it joins the element of SSID {ssid}, which is not there. Save the model again."
+                )
+            ends.append(end)
+        one.source, one.target = ends
+        match one.source:
+            case None:
+                one.holder.defaults.append(one)
+            case JunctionNode():
+                one.source.outgoing.append(one)
+            case StateNode():
+                (one.source.inner if one.drawn.inner else one.source.outer).append(one)
+
+    def _function(self, holder: StateNode, state: DrawnState) -> None:
+        """A function by its name; its flow chart is a level without states."""
+        language = self._language
+        kernel = self._chart.kind == "MATLAB function"
+        try:
+            script = parse_script(state.script) if state.script else ()
+            signature = script[0].signature if kernel and script else parse_signature(state.label, language)
+        except GrammarError as error:
+            self._note(holder.path, f"the function {state.name}", error, state.ssid, state.line)
+            return
+        flow = None
+        if not script:
+            flow = StateNode(state.ssid, signature.name, f"{holder.path}/{signature.name}", holder)
+            self._level(flow, state.content)
+            self._states[state.ssid] = flow
+        data = {one.name: one for one in state.content.data}
+        holder.functions[signature.name] = FunctionNode(state, signature, holder, script, flow, data)
+
+    def _note(self, where: str, what: str, error: GrammarError, ssid: int, line: int) -> None:
+        text = f"{error}."
+        self._notes.append(DrawingNote("refused", where, what, text, self._chart.part, ssid, line))
+
+
+__all__ = [
+    "FunctionNode", "JunctionNode", "ParsedChart", "StateNode", "TransitionNode", "parsed_chart",
+]  # fmt: skip
