@@ -178,7 +178,8 @@ class DrawnChart:
 class DrawnLine:
     """A signal from an output of a block to a port of another one, by their ids.
 
-    ``to_port`` is the number of an input, or ``enable``, ``trigger``, ``ifaction`` or ``state``.
+    ``from_port`` is the number of an output, or 0: the state port.  ``to_port`` is the number of an input, or
+    ``enable``, ``trigger``, ``ifaction``, ``state``, ``reset`` or ``event``.
     """
 
     source: str

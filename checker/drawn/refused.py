@@ -1,16 +1,16 @@
 """What stands in a file of charts and has no meaning here, each with its place and the way around it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from rovercheck.checker.drawn.records import (
-    DrawnBlock,
     DrawnChart,
     DrawnContent,
     DrawnData,
     DrawnModel,
     DrawnState,
+    DrawnSystem,
     DrawnTransition,
 )
 
@@ -35,6 +35,8 @@ class DrawingNote:
         return f"{self.where}, {self.what}{number}: {self.text}"
 
 
+LONGEST = 100
+"""Letters of the name of a state in a note."""
 BLOCKS: Mapping[str, str] = {
     "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
     "ModelReference": "another model. Import that model by itself",
@@ -52,17 +54,20 @@ def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
     """Everything in a model that is refused, or read otherwise, in the order of the file."""
     for chart in model.charts:
         yield from _chart(chart)
-    for block in model.system.every_block():
-        if block.kind in BLOCKS:
-            yield _block(block, f"it is {BLOCKS[block.kind]}.")
+    yield from _blocks(model.system)
     for one in model.data:
         text = "it is of all charts together. Give each chart its own, and connect them."
         yield DrawingNote("refused", model.name, f"the datum {one.name}", text, "", one.ssid, one.line)
 
 
-def _block(block: DrawnBlock, text: str) -> DrawingNote:
-    name = " ".join(block.path.split())
-    return DrawingNote("refused", name, f"{block.kind} block {block.id}", text, "", None, block.line)
+def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
+    for block in system.blocks:
+        if block.kind in BLOCKS:
+            name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
+            text = f"it is {BLOCKS[block.kind]}."
+            yield DrawingNote("refused", name, what, text, system.part, None, block.line)
+        if block.system is not None and not block.chart:
+            yield from _blocks(block.system)
 
 
 def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
@@ -72,29 +77,38 @@ def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
         yield _note(chart, "the chart", "an update in continuous time. Make it discrete, or inherited")
     if chart.machine == "Moore":
         yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
-    yield from _level(chart, chart.content, chart.path)
-    for state in chart.content.every_state():
-        if state.atomic:
-            text = "it is an atomic subchart, which is a chart of its own. Make it a plain subchart"
-            yield _of_state(chart, state, text)
-        if state.action_subsystem:
-            text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
-            yield _of_state(chart, state, text)
-        yield from _level(chart, state.content, f"{chart.path}/{state.name}")
+    levels = list(chart.content.every_level())
+    ends = {one.ssid for level in levels for one in (*level.states, *level.junctions)}
+    yield from _level(chart, chart.content, chart.path, None, ends)
 
 
-def _level(chart: DrawnChart, content: DrawnContent, where: str) -> Iterator[DrawingNote]:
+def _level(
+    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None, ends: Collection[int]
+) -> Iterator[DrawingNote]:
+    """What is in a chart or a state, ``holder``, and in its states; transitions lead to ``ends``."""
     kinds = {state.kind for state in content.states} & {"exclusive", "parallel"}
     if len(kinds) > 1:
-        text = "exclusive and parallel states in one level. Draw one kind of them"
-        yield DrawingNote("refused", where, "its states", f"{text}.", chart.part)
+        text = "exclusive and parallel states in one level. Draw one kind of them."
+        ssid, line = (None, 0) if holder is None else (holder.ssid, holder.line)
+        yield DrawingNote("refused", where, "its states", text, chart.part, ssid, line)
     for transition in content.transitions:
+        what = f"the transition `{label_of(transition)}`"
         if transition.target is None:
             text = "it leads nowhere, and is left out."
-            what = f"the transition `{label_of(transition)}`"
             yield DrawingNote("otherwise", where, what, text, chart.part, transition.ssid, transition.line)
+        for end in {transition.source, transition.target} - {None, *ends}:
+            text = f"SSID {end} at an end of it is no state and no junction. Draw it to one of them."
+            yield DrawingNote("refused", where, what, text, chart.part, transition.ssid, transition.line)
     for one in content.data:
         yield from _datum(chart, where, one)
+    for state in content.states:
+        if state.atomic:
+            text = "it is an atomic subchart, which is a chart of its own. Make it a plain subchart"
+            yield _of_state(chart, where, state, text)
+        if state.action_subsystem:
+            text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
+            yield _of_state(chart, where, state, text)
+        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state, ends)
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:
@@ -115,9 +129,9 @@ def _note(chart: DrawnChart, what: str, text: str) -> DrawingNote:
     return DrawingNote("refused", chart.path, what, f"it has {text}.", chart.part)
 
 
-def _of_state(chart: DrawnChart, state: DrawnState, text: str) -> DrawingNote:
+def _of_state(chart: DrawnChart, where: str, state: DrawnState, text: str) -> DrawingNote:
     return DrawingNote(
-        "refused", chart.path, f"the state {state.name}", f"{text}.", chart.part, state.ssid, state.line
+        "refused", where, f"the state {state.name[:LONGEST]}", f"{text}.", chart.part, state.ssid, state.line
     )
 
 

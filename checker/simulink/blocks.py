@@ -5,15 +5,21 @@ from collections.abc import Iterator
 
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnLine, DrawnSystem, path_of
 from rovercheck.checker.simulink.package import SimulinkPackage
-from rovercheck.checker.simulink.xml import MOST_DEPTH, XmlElement
+from rovercheck.checker.simulink.xml import XmlElement, numbers
 from rovercheck.spec_model.lang.errors import ModelError
 
 _END = re.compile(r"([\w:.]+)#(in|out|enable|trigger|ifaction|state|reset|event)(?::(\d{1,6}))?")
-_EDGES = re.compile(r"-?\d+(?:\.\d+)?")
+_COUNT = re.compile(r"\d{1,6}")
 CHARTS = ("Chart", "MATLAB Function", "Truth Table", "State Transition Table")
 """What ``SFBlockType`` is of blocks that are charts."""
+TARGETS = ("in", "enable", "trigger", "ifaction", "state", "reset", "event")
 CONTROL = {"enable": "EnablePort", "trigger": "TriggerPort", "ifaction": "ActionPort"}
-MOST_SYSTEMS = 100_000
+PORTS = ("in", "out", "enable", "trigger", "state", "lconn", "rconn", "ifaction", "reset")
+"""The order in which older releases count the ports of a block."""
+MOST_LETTERS = 50_000_000
+"""Letters of the paths of all blocks, in each of which there are the names of all that are around it."""
+MOST_LEVELS = 64
+"""Systems in each other; the deepest diagrams known have a quarter of them."""
 
 
 class DiagramReader:
@@ -21,8 +27,8 @@ class DiagramReader:
 
     def __init__(self, package: SimulinkPackage) -> None:
         self._package = package
-        self._open: list[str] = []
-        self._read = 0
+        self._read: set[str] = set()
+        self._letters = MOST_LETTERS
 
     def root(self, element: XmlElement, part: str) -> DrawnSystem:
         """The diagram of a model, whose element holds or names its system.  Raises ``ModelError``."""
@@ -34,6 +40,11 @@ class DiagramReader:
 
     def _system(self, element: XmlElement, part: str, path: tuple[str, ...]) -> DrawnSystem:
         reference = element.attributes.get("Ref")
+        if len(path) >= MOST_LEVELS:
+            raise ModelError(
+                f"{self._package.place(part)}, line {element.line}: no more than {MOST_LEVELS} systems in "
+                "each other are read. No diagram that is drawn has so many."
+            )
         if reference is not None:
             return self._referenced(reference, path)
         blocks = tuple(self._block(one, part, path) for one in element.all("Block"))
@@ -42,67 +53,92 @@ class DiagramReader:
 
     def _referenced(self, reference: str, path: tuple[str, ...]) -> DrawnSystem:
         part = f"simulink/systems/{reference}.xml"
-        self._read += 1
-        if part in self._open or len(self._open) > MOST_DEPTH or self._read > MOST_SYSTEMS:
+        if part in self._read:
             raise ModelError(
-                f"{self._package.place(part)}: the system is in itself, or referred to too often. Save the "
+                f"{self._package.place(part)}: the system is in itself, or in two blocks. Save the model "
+                "again in Simulink."
+            )
+        self._read.add(part)
+        system = self._package.xml(part)
+        if "Ref" in system.attributes:
+            raise ModelError(
+                f"{self._package.place(part)}: in place of a system it has the name of another one. Save the "
                 "model again in Simulink."
             )
-        self._open.append(part)
-        found = self._system(self._package.xml(part), part, path)
-        self._open.pop()
-        return found
+        return self._system(system, part, path)
 
     def _block(self, one: XmlElement, part: str, path: tuple[str, ...]) -> DrawnBlock:
         name = one.attributes.get("Name", "")
         within = (*path, name)
+        own_path = path_of(*within)
+        self._letters -= len(own_path)
+        if self._letters < 0:
+            raise ModelError(
+                f"{self._package.place(part)}, line {one.line}: the paths of the blocks have more than "
+                f"{MOST_LETTERS:,} letters. No diagram that is drawn has so many."
+            )
         system = one.child("System")
         parameters = {p.attributes.get("Name", ""): p.text for p in one.all("P")}
         counts = one.child("PortCounts")
-        if counts is not None:
+        if counts is None:
+            parameters |= _ports(parameters.get("Ports", ""))
+        else:
             parameters |= {f"ports {key}": value for key, value in counts.attributes.items()}
-        signals: dict[str, str] = {}
-        for ports in one.all("PortProperties"):
-            for port in ports.all("Port"):
-                if port.attributes.get("Type") == "out" and (signal := port.property_of("Name")):
-                    signals[port.attributes.get("Index", "1")] = signal
-        edges = [float(edge) for edge in _EDGES.findall(parameters.get("Position", ""))[:4]]
-        left, top, right, bottom = edges if len(edges) == 4 else (0.0,) * 4
+        left, top, right, bottom = numbers(parameters.get("Position", ""), 4)
         return DrawnBlock(
             id=one.attributes.get("SID", ""),
             kind=one.attributes.get("BlockType", ""),
             name=name,
-            path=path_of(*within),
+            path=own_path,
             parameters=parameters,
-            signals=signals,
+            signals=dict(_signals(one)),
             system=None if system is None else self._system(system, part, within),
-            chart=path_of(*within) if parameters.get("SFBlockType") in CHARTS else "",
+            chart=own_path if parameters.get("SFBlockType") in CHARTS else "",
             rectangle=(left, top, right - left, bottom - top),
             line=one.line,
         )
 
     def _lines(self, one: XmlElement, part: str) -> Iterator[DrawnLine]:
         """A signal with all its branches; one that is not connected at an end is none."""
-        source = self._end(one.property_of("Src"), one, part)
+        source = self._end(one.property_of("Src"), one, part, ("out", "state"))
         if source is None:
             return
         for branch in one.every():
             if branch.tag in ("Line", "Branch"):
-                target = self._end(branch.property_of("Dst"), branch, part)
+                target = self._end(branch.property_of("Dst"), branch, part, TARGETS)
                 if target is not None:
-                    yield DrawnLine(source[0], int(source[2]), target[0], target[2] or target[1])
+                    yield DrawnLine(source[0], int(source[2] or 0), target[0], target[2] or target[1])
 
-    def _end(self, text: str, one: XmlElement, part: str) -> tuple[str, str, str] | None:
-        """The block, the kind of port and its number."""
+    def _end(
+        self, text: str, one: XmlElement, part: str, kinds: tuple[str, ...]
+    ) -> tuple[str, str, str] | None:
+        """The block, the kind of port and its number; a port of another kind is none."""
         if not text:
             return None
         found = _END.fullmatch(text.strip())
-        if found is None or (found[2] in ("in", "out")) != (found[3] is not None):
+        if found is None or found[2] not in kinds or (found[2] in ("in", "out")) != (found[3] is not None):
             raise ModelError(
                 f"{self._package.place(part)}, line {one.line}: a signal ends at {text[:40]!r}, which is no "
                 "port. Save the model again in Simulink."
             )
-        return found[1], found[2], found[3] or ("1" if found[2] == "state" else "")
+        return found[1], found[2], found[3] or ""
+
+
+def _signals(block: XmlElement) -> Iterator[tuple[str, str]]:
+    """The names of the outputs of a block by number; older releases put the number into a property."""
+    for ports in block.all("PortProperties"):
+        for port in ports.all("Port"):
+            if port.attributes.get("Type") == "out" and (name := port.property_of("Name")):
+                yield port.attributes.get("Index", "1"), name
+    for port in block.all("Port"):
+        if name := port.property_of("Name"):
+            yield port.property_of("PortNumber", "1"), name
+
+
+def _ports(written: str) -> dict[str, str]:
+    """How many ports of each kind a block has, of which older releases wrote a list."""
+    counts = zip(PORTS, _COUNT.finditer(written), strict=False)
+    return {f"ports {kind}": count[0] for kind, count in counts if int(count[0])}
 
 
 __all__ = ["CONTROL", "DiagramReader"]

@@ -4,7 +4,6 @@ by default.
 
 import re
 from collections.abc import Iterator, Mapping
-from math import isfinite
 from typing import Literal, TypeVar, cast
 
 from rovercheck.checker.drawn.records import (
@@ -24,7 +23,7 @@ from rovercheck.checker.drawn.records import (
     Point,
     Rectangle,
 )
-from rovercheck.checker.simulink.xml import XmlElement
+from rovercheck.checker.simulink.xml import XmlElement, numbers
 from rovercheck.spec_model.lang.errors import ModelError
 
 Word = TypeVar("Word")
@@ -57,7 +56,6 @@ MACHINES: Mapping[str, Literal["classic", "Mealy", "Moore"]] = {
 }  # fmt: skip
 
 _NAME = re.compile(r"\s*([^\n/]*)")
-_NUMBERS = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 _AUTOMATIC = 2**32 - 1
 """The order of pieces of a wire that have none."""
 
@@ -80,7 +78,7 @@ class _ChartReader:
             path=self.path,
             kind=kind,
             language="MATLAB" if kind == "MATLAB function" else language,
-            content=self._content(one, None),
+            content=self._unique(self._content(one, None)),
             part=self.part,
             id=self._whole(one, one.attributes.get("id", "0"), "the id"),
             parallel=one.property_of("decomposition") == "SET_CHART",
@@ -112,6 +110,19 @@ class _ChartReader:
             tuple(self._event(one) for one in every if one.tag == "event"),
         )
 
+    def _unique(self, content: DrawnContent) -> DrawnContent:
+        """The same content.  Raises ``ModelError`` if two elements of it have one number."""
+        seen: dict[int, int] = {}
+        for level in content.every_level():
+            for one in (*level.states, *level.transitions, *level.junctions, *level.data, *level.events):
+                if one.ssid in seen:
+                    raise ModelError(
+                        f"{self.place}, line {one.line}: the element has SSID {one.ssid}, and so has the one "
+                        f"in line {seen[one.ssid]}. Save the model again in Simulink."
+                    )
+                seen[one.ssid] = one.line
+        return content
+
     def _state(self, one: XmlElement) -> DrawnState:
         ssid, label = self._ssid(one), one.property_of("labelString")
         simulink, table, eml = one.child("simulink"), one.child("truthTable"), one.child("eml")
@@ -139,7 +150,7 @@ class _ChartReader:
             block="" if simulink is None else simulink.property_of("blockName"),
             atomic=simulink is not None and _on(simulink, "isComponent"),
             action_subsystem=simulink is not None and _on(simulink, "isActionSubsystem"),
-            rectangle=cast(Rectangle, _numbers(one.property_of("position"), 4)),
+            rectangle=cast(Rectangle, numbers(one.property_of("position"), 4)),
             requirement=one.property_of("requirementInfo"),
             line=one.line,
         )
@@ -148,9 +159,9 @@ class _ChartReader:
         source, target = self._end(one, "src"), self._end(one, "dst")
         order = self._whole(one, one.property_of("executionOrder", "0"), "executionOrder")
         ends = (e.property_of("intersection") for e in (one.child("src"), one.child("dst")) if e is not None)
-        spots = [cast(Point, tuple(at[4:6])) for text in ends if len(at := _numbers(text, 6)) >= 6]
+        spots = [cast(Point, numbers(text, 6)[4:]) for text in ends if text]
         if spots and (middle := one.property_of("midPoint")):
-            spots.insert(1, cast(Point, _numbers(middle, 2)))
+            spots.insert(1, cast(Point, numbers(middle, 2)))
         return DrawnTransition(
             ssid=self._ssid(one),
             source=source,
@@ -168,7 +179,7 @@ class _ChartReader:
         return self._whole(one, text, f"{tag}/SSID") if text else None
 
     def _junction(self, one: XmlElement) -> DrawnJunction:
-        at = cast(Point, _numbers(one.property_of("position"), 2)[:2])
+        at = cast(Point, numbers(one.property_of("position"), 2))
         return DrawnJunction(self._ssid(one), one.property_of("type") == "HISTORY_JUNCTION", at, one.line)
 
     def _event(self, one: XmlElement) -> DrawnEvent:
@@ -249,12 +260,6 @@ def _name(label: str, kind: DrawnStateKind) -> str:
         return " ".join(label.replace("...", " ").split())
     found = _NAME.match(label)
     return found[1].strip() if found else ""
-
-
-def _numbers(text: str, least: int) -> tuple[float, ...]:
-    """Numbers of a drawing, at least so many; 0 where they are missing."""
-    found = tuple(n for number in _NUMBERS.findall(text)[:64] if isfinite(n := float(number)))
-    return (*found, *[0.0] * (least - len(found)))
 
 
 def charts_in(root: XmlElement) -> Iterator[XmlElement]:

@@ -7,17 +7,22 @@ from itertools import dropwhile, takewhile
 from pathlib import Path
 
 from rovercheck.checker.drawn.records import DrawnBus, DrawnElement, DrawnEnumeration, DrawnParameter
+from rovercheck.checker.simulink.assignments import assignments
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
 from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_DICTIONARIES = 100
+LONGEST_NAME = 255
+"""Letters of the name of a file."""
 MOST_TEXT = 4 << 20
 """Bytes of a class or a script."""
 
-_CLASS = re.compile(r"^\s*classdef\s*(?:\([^)\n]*\)\s*)?(\w+)\s*<\s*([\w.]+)", re.MULTILINE)
-_MEMBER = re.compile(r"(\w+)\s*\(\s*(-?\d{1,18})\s*\)")
-_DEFAULT = re.compile(r"function\s+(\w+)\s*=\s*getDefaultValue\b[^\n]*\n\s*\1\s*=\s*(?:\w+\.)?(\w+)")
+_CLASS = re.compile(r"^[ \t]*classdef\s*(?:\([^)\n]*\)\s*)?(\w+)\s*<\s*([\w.]+)", re.MULTILINE)
+_MEMBER = re.compile(r"\b(\w+)\s*\(\s*(-?\d{1,18})\s*\)")
+_DEFAULT = re.compile(
+    r"function\s+(\w+)\s*=\s*getDefaultValue[ \t]*(?:\([ \t]*\))?[ \t;,]*\n\s*\1\s*=\s*(?:\w+\.)?(\w+)"
+)
 _COMMENT = re.compile(r"%.*")
 _WHOLE = re.compile(r"-?\d{1,18}(?:\.0*)?")
 
@@ -47,7 +52,7 @@ class Definitions:
                 if name.endswith(".xml") and name.startswith(("data/chunk", "dictionary/")):
                     root = package.xml(name)
                     self._entries(root, file.name, package.place(name))
-                    waiting += (file.parent / other for other in _others(root))
+                    waiting += (file.parent / other for other in _others(root, package.place(name)))
 
     def _entries(self, root: XmlElement, file: str, place: str) -> None:
         for entry in (one for one in root.every() if one.attributes.get("Class") == "DD.ENTRY"):
@@ -81,17 +86,22 @@ class Definitions:
         if found := _CLASS.search(text):
             self.enumerations[found[1]] = _enumeration_class(found[1], found[2], text, path)
         else:
-            for name, value in _assignments(text):
+            for name, value in assignments(text):
                 self.parameters[name] = DrawnParameter(name, value, "", path.name)
 
 
-def _others(root: XmlElement) -> Iterator[str]:
+def _others(root: XmlElement, place: str) -> Iterator[str]:
     """The names of dictionaries that one refers to, without folders: they are beside it."""
     for one in root.every():
         name = one.text.strip() or one.attributes.get("DictionaryName", "")
         if "Reference" in one.attributes.get("Class", "") or one.tag in ("Reference", "DictionaryReference"):
             name = name or one.property_of("Name") or one.property_of("DictionaryName")
             if name.endswith(".sldd"):
+                if len(name) > LONGEST_NAME or not name.isprintable():
+                    raise ModelError(
+                        f"{place}, line {one.line}: it refers to the dictionary {name[:40]!r}, which is no "
+                        "name of a file. Save the dictionary again in Simulink."
+                    )
                 yield Path(name).name
 
 
@@ -102,8 +112,8 @@ def _enumeration(name: str, element: XmlElement, file: str, place: str) -> Drawn
         value = one.property_of("Value").strip()
         if not _WHOLE.fullmatch(value):
             raise ModelError(
-                f"{place}, line {one.line}: {name}.{one.property_of('Name')} is {value[:40]!r}, and no whole "
-                "number. Members of an enumeration are whole numbers."
+                f"{place}, line {one.line}: {one.property_of('Name')[:40]!r} of {name[:40]!r} is "
+                f"{value[:40]!r}, and no whole number. Members of an enumeration are whole numbers."
             )
         members[one.property_of("Name").strip()] = int(value.partition(".")[0])
     default = default_of(members, element.property_of("DefaultValue").strip())
@@ -142,28 +152,28 @@ def _enumeration_class(name: str, base: str, text: str, path: Path) -> DrawnEnum
     members = {one[1]: int(one[2]) for line in block for one in _MEMBER.finditer(line)}
     if not members:
         raise ModelError(
-            f"{path}: the class {name} has no members `NAME (number)` between enumeration and end. Name a "
-            "class of an enumeration."
+            f"{path}: the class {name[:40]} has no members `NAME (number)` between enumeration and end. Name "
+            "a class of an enumeration."
         )
     default = found[2] if (found := _DEFAULT.search("\n".join(lines))) else ""
     storage = "" if base.startswith("Simulink") else base
     return DrawnEnumeration(name, members, default_of(members, default), storage, path.name)
 
 
-def _assignments(text: str) -> Iterator[tuple[str, str]]:
-    """The assignments of a script that say a value; what computes is for those who ask for the name."""
-    for line in text.splitlines():
-        name, equals, value = (part.strip() for part in _COMMENT.sub("", line).partition("="))
-        if equals and name.isidentifier() and not value.startswith("="):
-            yield name, value.rstrip("; ")
-
-
 def files_beside(model: Path, names: Sequence[str]) -> Iterator[Path]:
     """The classes of enumerations beside a model that have one of some names."""
     for name in names:
         file = model.parent / f"{name}.m"
-        if name.isidentifier() and file.is_file():
+        if name.isidentifier() and is_file(file):
             yield file
 
 
-__all__ = ["Definitions", "default_of", "files_beside"]
+def is_file(path: Path) -> bool:
+    """Whether it is there: a name out of a file may be none that there can be."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+__all__ = ["Definitions", "default_of", "files_beside", "is_file"]

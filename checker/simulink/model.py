@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnModel, DrawnSystem
+from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnModel
 from rovercheck.checker.simulink.blocks import DiagramReader
 from rovercheck.checker.simulink.charts import chart_of, charts_in, data_of
-from rovercheck.checker.simulink.dictionary import Definitions, files_beside
+from rovercheck.checker.simulink.dictionary import Definitions, files_beside, is_file
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
 from rovercheck.spec_model.lang.errors import ModelError
@@ -35,7 +35,10 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
         raise ModelError(f"{package.place(DIAGRAM)}: it holds no model. Save the model again in Simulink.")
     system = DiagramReader(package).root(model, DIAGRAM)
     charts, data = _charts(package, top)
-    definitions = _definitions(path, model, charts, system, beside)
+    types = [one.type for one in data]
+    types += (one.type for chart in charts for level in chart.content.every_level() for one in level.data)
+    types += (block.parameters.get("OutDataTypeStr", "") for block in system.every_block())
+    definitions = _definitions(path, model, types, beside)
     solver = _solver(package, model)
     return DrawnModel(
         name=path.stem,
@@ -92,34 +95,26 @@ def _instances(root: XmlElement) -> Mapping[str, str]:
 # --- beside the model --------------------------------------------------------------------------------------
 
 
-def _definitions(
-    path: Path,
-    model: XmlElement,
-    charts: Sequence[DrawnChart],
-    system: DrawnSystem,
-    beside: Iterable[Path],
-) -> Definitions:
+def _definitions(path: Path, model: XmlElement, types: Iterable[str], beside: Iterable[Path]) -> Definitions:
     found = Definitions()
     dictionary = Path(model.property_of("DataDictionary")).name
-    if dictionary and (path.parent / dictionary).is_file():
+    if dictionary and is_file(path.parent / dictionary):
         found.read_dictionary(path.parent / dictionary)
     for file in beside:
         if file.suffix == ".sldd":
             found.read_dictionary(file)
         else:
             found.read_text(file)
-    missing = sorted(set(_enumerations(charts, system, found)) - found.enumerations.keys())
+    missing = sorted(set(_enumerations(types, found)) - found.enumerations.keys())
     for file in files_beside(path, missing):
         found.read_text(file)
     return found
 
 
-def _enumerations(charts: Iterable[DrawnChart], system: DrawnSystem, found: Definitions) -> Iterator[str]:
-    """The names of the enumerations that data, elements of buses and blocks have as types."""
-    types = [one.type for chart in charts for level in chart.content.every_level() for one in level.data]
-    types += (one.type for bus in found.buses.values() for one in bus.elements)
-    types += (block.parameters.get("OutDataTypeStr", "") for block in system.every_block())
-    yield from (one.removeprefix(ENUM).strip() for one in types if one.startswith(ENUM))
+def _enumerations(types: Iterable[str], found: Definitions) -> Iterator[str]:
+    """The names of the enumerations among the types of a model, and those of elements of buses."""
+    elements = (one.type for bus in found.buses.values() for one in bus.elements)
+    yield from (one.removeprefix(ENUM).strip() for one in (*types, *elements) if one.startswith(ENUM))
 
 
 def _solver(package: SimulinkPackage, model: XmlElement) -> Mapping[str, str]:
@@ -131,10 +126,18 @@ def _solver(package: SimulinkPackage, model: XmlElement) -> Mapping[str, str]:
             if one.attributes.get("Active") == "true" and (name := one.attributes.get("PartName")):
                 active = name.lstrip("/")
     root = package.xml(active) if active in package else model
-    for one in root.every():
+    for one in _active(root).every():
         if one.attributes.get("ClassName") == "Simulink.SolverCC":
             return {p.attributes.get("Name", ""): p.text.strip() for p in one.all("P")}
     return {}
+
+
+def _active(root: XmlElement) -> XmlElement:
+    """The configuration that is active of those inline in a model, else all of them."""
+    names = (one for one in root.every() if one.attributes.get("PropName") == "ActiveConfigurationSet")
+    numbers = {one.attributes.get("ObjectID") for one in names} - {None}
+    sets = (one for one in root.every() if one.attributes.get("ClassName") == "Simulink.ConfigSet")
+    return next((one for one in sets if one.attributes.get("ObjectID") in numbers), root)
 
 
 def _release(package: SimulinkPackage) -> str:

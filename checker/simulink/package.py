@@ -5,21 +5,27 @@ from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path, PurePosixPath
 from struct import error as StructError
-from zipfile import BadZipFile, LargeZipFile, ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, LargeZipFile, ZipFile, ZipInfo
 
-from rovercheck.checker.simulink.xml import XmlElement, parsed
+from rovercheck.checker.io.printable import one_line
+from rovercheck.checker.simulink.xml import MOST_ELEMENTS, XmlElement, parsed
 from rovercheck.spec_model.lang.errors import ModelError
 
 MOST_BYTES = 128 << 20
 """Bytes of a package, and of all of its parts that are read, unpacked."""
 MOST_PARTS = 20_000
+LONGEST = 100
+"""Letters of a name in a message."""
+ENTRY = b"PK\x01\x02"
+"""What an entry of the list of parts begins with."""
 ONCE_MORE = "Save the model again in Simulink."
 
+ENCRYPTED = 0x1
 BROKEN = (
     BadZipFile, LargeZipFile, zlib.error, StructError, EOFError, OSError, NotImplementedError, RuntimeError,
     ValueError, OverflowError,
 )  # fmt: skip
-"""What reading a damaged ZIP file raises, one that is encrypted or packed by an unknown method too."""
+"""What reading a damaged ZIP file raises."""
 
 
 class SimulinkPackage:
@@ -35,24 +41,26 @@ class SimulinkPackage:
             raise ModelError(f"{path}: {error.strerror}. Name a file of Simulink, .slx or .sldd.") from error
         if len(data) > MOST_BYTES:
             raise ModelError(f"{path}: more than {MOST_BYTES >> 20} MiB are not read.")
+        self._elements = MOST_ELEMENTS
+        if data.count(ENTRY) > MOST_PARTS:  # before there is an object for each
+            raise ModelError(f"{path}: more than {MOST_PARTS:,} parts in one package are not read.")
         try:
             self._zip = ZipFile(BytesIO(data))
             infos = self._zip.infolist()
         except BROKEN as error:
             raise ModelError(f"{path}: it is no package of Simulink: {_said(error)}. {ONCE_MORE}") from error
-        if len(infos) > MOST_PARTS:
-            raise ModelError(f"{path}: more than {MOST_PARTS:,} parts in one package are not read.")
         self._infos: dict[str, ZipInfo] = {}
         for info in infos:
             self._add(info)
 
     def _add(self, info: ZipInfo) -> None:
-        name = info.filename.removeprefix("/")
-        parts = PurePosixPath(name).parts
-        if ".." in parts or "\\" in name or not name.isprintable() or ":" in name:
-            raise ModelError(f"{self.path}: {name!r} is no name of a part. {ONCE_MORE}")
+        name = info.filename
+        path = PurePosixPath(name)
+        odd = "\\" in name or ":" in name or not name.isprintable()
+        if odd or path.is_absolute() or ".." in path.parts:
+            raise ModelError(f"{self.path}: {name[:LONGEST]!r} is no name of a part. {ONCE_MORE}")
         if name in self._infos:
-            raise ModelError(f"{self.path}: the part {name} is there twice. {ONCE_MORE}")
+            raise ModelError(f"{self.path}: the part {name[:LONGEST]} is there twice. {ONCE_MORE}")
         self._infos[name] = info
 
     def __contains__(self, name: str) -> bool:
@@ -63,14 +71,19 @@ class SimulinkPackage:
         return (name for name in self._infos if name.startswith(start))
 
     def place(self, name: str) -> str:
-        """How a part is named in a message."""
-        return f"{self.path.name}, part {name}"
+        """How a part is named in a message, of which a name may be in a file of a stranger."""
+        return f"{self.path.name}, part {one_line(name[:LONGEST])}"
 
     def data(self, name: str) -> bytes:
         """A part as bytes.  Raises ``ModelError`` for one that is missing, damaged or too large."""
         info = self._infos.get(name)
         if info is None:
             raise ModelError(f"{self.place(name)}: it is missing. {ONCE_MORE}")
+        if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED) or info.flag_bits & ENCRYPTED:
+            raise ModelError(
+                f"{self.place(name)}: it is encrypted, or packed by a method that is not Simulink's. "
+                f"{ONCE_MORE}"
+            )
         try:
             with self._zip.open(info) as file:
                 found = file.read(self._left + 1)
@@ -85,12 +98,14 @@ class SimulinkPackage:
 
     def xml(self, name: str) -> XmlElement:
         """The root element of a part.  Raises ``ModelError``."""
-        return parsed(self.data(name), self.place(name))
+        root, number = parsed(self.data(name), self.place(name), self._elements)
+        self._elements -= number
+        return root
 
 
 def _said(error: BaseException) -> str:
-    text = str(error).strip().rstrip(".")
-    return text if text.isprintable() and text else type(error).__name__
+    text = str(error).strip().rstrip(".")  # which may quote the file from there to its end
+    return text if text.isprintable() and 0 < len(text) <= LONGEST else type(error).__name__
 
 
 __all__ = ["SimulinkPackage"]

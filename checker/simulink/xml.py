@@ -1,5 +1,7 @@
 """XML of a stranger as plain elements with their lines: no entities, no doctype, nothing that is fetched."""
 
+import codecs
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers.expat import ExpatError, ParserCreate, errors
@@ -9,6 +11,17 @@ from rovercheck.spec_model.lang.errors import ModelError
 MOST_DEPTH = 200
 """Elements in each other; states nest to a tenth of it in the deepest charts known."""
 MOST_ELEMENTS = 1_000_000
+"""Elements of all parts of a package that are read."""
+
+MULTIBYTE = frozenset({
+    "shift_jis", "cp932", "euc_jp", "gb2312", "gbk", "gb18030", "big5", "big5hkscs", "euc_kr", "cp949",
+    "johab",
+})  # fmt: skip
+"""Encodings of several bytes for a letter, which the parser of XML does not know."""
+FARTHEST = 1e9
+"""From a point of a drawing to its origin; what is farther is no point."""
+_NUMBER = re.compile(r"-?\d{1,300}(?:\.\d{1,300})?(?:[eE][-+]?\d{1,3})?")
+_DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?\bencoding\s*=\s*["']([A-Za-z][\w.-]{0,40})["']""")
 
 
 @dataclass(slots=True)
@@ -59,12 +72,12 @@ class XmlElement:
 
 
 class _Builder:
-    def __init__(self, place: str) -> None:
-        self.place, self.number = place, 0
+    def __init__(self, place: str, most: int, encoding: str | None) -> None:
+        self.place, self.most, self.number = place, most, 0
         self.top = XmlElement("", {}, 0)
         self.open = [self.top]
         self.texts: list[list[str]] = [[]]
-        self.parser = ParserCreate()
+        self.parser = ParserCreate(encoding)
         self.parser.buffer_text = True
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
@@ -73,10 +86,11 @@ class _Builder:
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self.number += 1
-        if len(self.open) > MOST_DEPTH or self.number > MOST_ELEMENTS:
+        if len(self.open) > MOST_DEPTH or self.number > self.most:
             raise ModelError(
                 f"{self.place}, line {self.parser.CurrentLineNumber}: no more than {MOST_DEPTH} elements in "
-                f"each other are read, and {MOST_ELEMENTS:,} in all. No model that is drawn has so many."
+                f"each other are read, and {MOST_ELEMENTS:,} in one package. No model that is drawn has so "
+                "many."
             )
         made = XmlElement(tag, attributes, self.parser.CurrentLineNumber)
         self.open[-1].children.append(made)
@@ -96,9 +110,13 @@ class _Builder:
         )
 
 
-def parsed(data: bytes, place: str) -> XmlElement:
-    """The root element of a text, which stands at ``place``.  Raises ``ModelError``."""
-    builder = _Builder(place)
+def parsed(data: bytes, place: str, most: int = MOST_ELEMENTS) -> tuple[XmlElement, int]:
+    """The root element of a text, which stands at ``place``, and how many elements there are.
+
+    Raises ``ModelError``, also for more elements than ``most``.
+    """
+    data, encoding = _in_utf_8(data, place)
+    builder = _Builder(place, most, encoding)
     try:
         builder.parser.Parse(data, True)
     except ExpatError as error:
@@ -108,7 +126,31 @@ def parsed(data: bytes, place: str) -> XmlElement:
         ) from error
     except (LookupError, ValueError) as error:  # an encoding that does not exist, or is none of text
         raise ModelError(f"{place}: it is no XML: {error}. Save the model again in Simulink.") from error
-    return builder.top.children[0]
+    return builder.top.children[0], builder.number
 
 
-__all__ = ["XmlElement", "parsed"]
+def _in_utf_8(data: bytes, place: str) -> tuple[bytes, str | None]:
+    """The text in an encoding that the parser knows, and which that is if the text says another one.
+
+    Simulink of East Asian systems once declared encodings of several bytes for a letter.
+    """
+    found = _DECLARED.match(data)
+    if found is None:
+        return data, None
+    name = found[1].decode("ascii")
+    try:
+        codec = codecs.lookup(name)
+        if codec.name not in MULTIBYTE:
+            return data, None
+        return codec.decode(data)[0].encode("utf-8"), "utf-8"
+    except (LookupError, ValueError) as error:
+        raise ModelError(f"{place}: it is no XML: {error}. Save the model again in Simulink.") from error
+
+
+def numbers(text: str, many: int) -> tuple[float, ...]:
+    """The first numbers of a drawing, exactly so many; 0 where they are missing, or are none."""
+    found = [float(one[0]) for one, _ in zip(_NUMBER.finditer(text), range(many), strict=False)]
+    return tuple(n if abs(n) < FARTHEST else 0.0 for n in (*found, *[0.0] * (many - len(found))))
+
+
+__all__ = ["XmlElement", "numbers", "parsed"]
