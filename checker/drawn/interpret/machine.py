@@ -157,28 +157,35 @@ class ChartMachine:
     def _path(self, transitions: Sequence[TransitionNode], source: StateNode) -> Found:
         """The first complete path that begins with one of some transitions.  Raises ``Dropped``."""
         self._tried = 0
-        return self._search(transitions, source)
+        return self._search(transitions, self._frame(source, source))
 
-    def _search(self, transitions: Sequence[TransitionNode], source: StateNode) -> Found:
-        for one in transitions:
+    def _search(
+        self, transitions: Sequence[TransitionNode], frame: Frame, in_function: bool = False
+    ) -> Found:
+        """The same, with the texts in a frame; in a function transition actions run at once, too."""
+        waiting, path = [iter(transitions)], list[TransitionNode]()
+        while waiting:
+            one = next(waiting[-1], None)
+            if one is None:  # back to the transitions beside the one that led here
+                waiting.pop()
+                del path[-1:]
+                continue
             self._tried += 1
             if self._tried > MOST_SEGMENTS:
                 raise ChartFault(f"{one} is in a loop of junctions without end: no guard ends it")
-            frame = self._frame(source, source)
             if not self._valid(one, frame):
                 continue
             self._runner.run(one.label.condition_actions, frame)
+            if in_function:
+                self._runner.run(one.label.transition_actions, frame)
             if one.target is None:
                 continue
+            path.append(one)
             if isinstance(one.target, StateNode) or one.target.history:
-                return [one]
+                return path
             if not one.target.outgoing:
                 return END
-            found = self._search(one.target.outgoing, source)
-            if found == END:
-                return END
-            if isinstance(found, list):
-                return [one, *found]
+            waiting.append(iter(one.target.outgoing))
         return None
 
     def _valid(self, one: TransitionNode, frame: Frame) -> bool:
@@ -358,24 +365,8 @@ class ChartMachine:
             if name in signature.inputs:
                 self.memory.write(one.ssid, arguments[signature.inputs.index(name)])
         frame = Frame(flow, self.rules, calls=calls)
-        self._run_flow(flow.defaults, frame)
+        self._search(flow.defaults, frame, in_function=True)
         return [self.memory.values[flow.data[name].ssid] for name in signature.outputs]
-
-    def _run_flow(self, transitions: Sequence[TransitionNode], frame: Frame) -> bool:
-        """Whether the flow of a function came to an end; all of its actions run at once."""
-        for one in transitions:
-            self._tried += 1
-            if self._tried > MOST_SEGMENTS:
-                raise ChartFault(f"{one} is in a loop of junctions without end: no guard ends it")
-            if self._valid(one, frame):
-                self._runner.run(one.label.condition_actions, frame)
-                self._runner.run(one.label.transition_actions, frame)
-                target = one.target
-                if not isinstance(target, JunctionNode) or not target.outgoing:
-                    return True
-                if self._run_flow(target.outgoing, frame):
-                    return True
-        return False
 
     # --- a MATLAB function as a block ----------------------------------------------------------------------
 
