@@ -99,7 +99,7 @@ class Cursor:
     def expect(self, sign: str, why: str) -> Token:
         """Take this sign, which must be next."""
         if not self.at_sign(sign):
-            self.refuse_equals()
+            self.refuse_sign()
             self.fail(f"{self.shown()} stands where '{sign}' must: {why}")
         return self.advance()
 
@@ -116,10 +116,12 @@ class Cursor:
         reserved = RESERVED_IN_MATLAB if self.matlab else RESERVED_IN_C
         return token.kind is TokenKind.NAME and token.text in reserved
 
-    def refuse_equals(self) -> None:
-        """Raise an error if ``=`` is next, where a comparison may be meant."""
+    def refuse_sign(self) -> None:
+        """Raise an error if ``=`` is next, where a comparison may be meant, or the ``?`` of C."""
         if self.at_sign("="):
             self.fail("'=' assigns, and nothing can be assigned here: to compare, write '=='")
+        if self.at_sign("?"):
+            self.fail("charts have no conditional values, as in a ? b : c: assign in two transitions")
 
     def shown(self) -> str:
         """What is next, for a message."""
@@ -162,6 +164,6 @@ def read_whole(text: str, language: ActionLanguage, read: Callable[[Cursor], T],
     found = read(cursor)
     cursor.skip_lines()
     if not cursor.at_end():
-        cursor.refuse_equals()
+        cursor.refuse_sign()
         cursor.fail(f"{cursor.shown()} stands behind the end of {what}")
     return found

@@ -16,11 +16,16 @@ def line_and_column(text: str, at: int) -> tuple[int, int]:
 class GrammarError(Exception):
     """A text that cannot be read: what was written, why it has no meaning, and what to write instead.
 
-    ``line`` and ``column`` count from 1; ``at`` is the same place as an offset into the text.
+    ``line`` and ``column`` count from 1; ``at`` is the same place as an offset into ``text``.
     """
 
     def __init__(self, message: str, text: str, at: int) -> None:
         self.message = message
+        self.text = text
         self.at = min(at, len(text))
         self.line, self.column = line_and_column(text, self.at)
         super().__init__(f"line {self.line}, column {self.column}: {message}")
+
+    def __reduce__(self) -> tuple[type["GrammarError"], tuple[str, str, int]]:
+        """A copy from another process is made as the error was."""
+        return GrammarError, (self.message, self.text, self.at)

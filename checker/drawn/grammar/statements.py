@@ -72,7 +72,7 @@ def _ended(cursor: Cursor, until: Callable[[Cursor], bool]) -> None:
     """Refuse what cannot stand behind a statement."""
     if cursor.token.kind in (TokenKind.LINE, TokenKind.END) or cursor.at_sign(";", ",") or until(cursor):
         return
-    cursor.refuse_equals()
+    cursor.refuse_sign()
     before = cursor.tokens[cursor.position - 1]
     if cursor.matlab and before.kind is TokenKind.NAME and cursor.token.kind in _WORDS:
         cursor.fail(

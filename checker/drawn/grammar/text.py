@@ -38,10 +38,10 @@ _ESCAPES = {
 
 def text_of(expression: Expression, language: ActionLanguage) -> str:
     """An expression as a text that is read as the same expression, up to the bounds of the reader."""
-    return _Writer(language).text(expression)
+    return _ExpressionWriter(language).text(expression)
 
 
-class _Writer:
+class _ExpressionWriter:
     def __init__(self, language: ActionLanguage) -> None:
         self.matlab = language is ActionLanguage.MATLAB
         table = operators_of(language)

@@ -154,6 +154,7 @@ class _Tokenizer:
         return True
 
     def _is_remainder(self) -> bool:
+        # At the beginning of a line `%%` heads a comment, as in MATLAB.
         return not self.matlab and self.text.startswith("%%", self.at) and self._after_operand()
 
     def _percent_comment(self) -> None:

@@ -82,7 +82,7 @@ class ChartClock:
             case Applied(Name("hasChanged" | "hasChangedTo" | "hasChangedFrom" as name), (of, *values)):
                 return self._changed(name, of, values, frame, evaluator)
             case Applied(Name("rising" | "falling" | "crossing" as name), (of,)):
-                return self._edge(name, of, frame)
+                return self._edge(name, of, frame, evaluator)
         return None
 
     def _limit(
@@ -134,8 +134,13 @@ class ChartClock:
             here = here and _equal(before, wanted[0])
         return logical(here)
 
-    def _edge(self, name: str, of: Expression, frame: Frame) -> MatlabValue:
-        raise ChartFault(f"{name} is not known here yet")
+    def _edge(self, name: str, of: Expression, frame: Frame, by: Evaluator) -> MatlabValue:
+        now, before = self._starts(of, frame, by)
+        if before is None:
+            return logical(False)
+        one, other = scalar(before).value, scalar(now).value
+        rises, falls = one <= 0 < other, one >= 0 > other
+        return logical({"rising": rises, "falling": falls, "crossing": rises or falls}[name])
 
     def _starts(self, of: Expression, frame: Frame, by: Evaluator) -> tuple[MatlabValue, MatlabValue | None]:
         """A datum at the start of this step, and of the step before."""

@@ -1,5 +1,6 @@
 """Texts without a meaning: each error says where, why, and what to write."""
 
+import pickle
 from collections.abc import Callable
 from functools import partial
 
@@ -80,6 +81,7 @@ STATEMENTS: list[Row] = [
 STATEMENTS_IN_C: list[Row] = [
     ("x = 1;\nif (a) { x = 1; }", "actions in C have no 'if'", 2, 1),
     ("x = 1 y = 2", "end it with ';'", 1, 7),
+    ("x = a ? 1 : 2;", "no conditional values", 1, 7),
 ]
 STATES: list[Row] = [
     ("", "the name of the state", 1, 1),
@@ -139,6 +141,13 @@ def test_error(read: Callable[[str], object], row: Row) -> None:
     assert str(error.value) == f"line {line}, column {column}: {error.value.message}"
 
 
+def test_an_error_is_sent_between_processes() -> None:
+    with pytest.raises(GrammarError) as error:
+        parse_expression("a\n b", MATLAB)
+    copy = pickle.loads(pickle.dumps(error.value))
+    assert (str(copy), copy.at, copy.line) == (str(error.value), 3, 2)
+
+
 def test_lines_end_in_three_ways() -> None:
     assert line_and_column("a\r\nb\rc\nd", 7) == (4, 1)
     assert line_and_column("abc", 2) == (1, 3)
@@ -147,10 +156,10 @@ def test_lines_end_in_three_ways() -> None:
 # --- bounds -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("opening", "closing"), [("(", ")"), ("[", "]"), ("f(", ")"), ("-(", ")"), ("{", "}")]
-)
-def test_brackets_in_each_other(opening: str, closing: str) -> None:
+@pytest.mark.parametrize("pair", ["( )", "[ ]", "f( )", "-( )", "{ }"])
+def test_brackets_in_each_other(pair: str) -> None:
+    opening, closing = pair.split()
+
     def nested(deep: int) -> str:
         return opening * deep + "x" + closing * deep
 

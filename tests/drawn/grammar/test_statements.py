@@ -34,7 +34,7 @@ IN_MATLAB = [
     ("for i = 1:3\n s = s + f(i);\nend", "for i (: 1 3) <s = (+ s f(i))>"),
     ("for (i = 1:2:9) s = i; end", "for i (: 1 2 9) <s = i>"),
     ("for k = [1 -2], f(k), end", "for k [1 (- 2)] <f(k)>"),
-    ("while a > 0\n a = 1; break; continue; return\nend", "while (> a 0) <a = 1 | break | continue | return>"),
+    ("while a\n a = 1; break; continue; return\nend", "while a <a = 1 | break | continue | return>"),
     (
         "switch mode\n case {1, Gear.N}\n x = 1;\n case 'off'\n x = 2;\n otherwise\n x = 3;\nend",
         "switch mode case 1 Gear.N <x = 1> case 'off' <x = 2> otherwise <x = 3>",

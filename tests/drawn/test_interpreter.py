@@ -1,0 +1,464 @@
+"""Each rule of Stateflow's semantics, by charts that log the order of their actions."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from rovercheck.checker.drawn.interpret.diagram import ModelRunner
+from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.simulink.model import read_model
+from tests.drawn.charts import LOG, logged, note, running
+from tests.simulink.samples import EXAMPLES
+from tests.simulink.writer.charts import WrittenChart
+
+
+@pytest.mark.parametrize("name", sorted(p.name for p in EXAMPLES.iterdir() if p.is_dir()))
+def test_the_examples_give_what_their_simulations_by_hand_give(name: str) -> None:
+    folder = EXAMPLES / name
+    runner = ModelRunner(read_model(next(folder.glob("*.slx"))))
+    inputs = list(runner.inputs())
+    with (folder / "io.csv").open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            given = runner.step({name: float(row[name]) for name in inputs})
+            assert {name: float(row[name]) for name in given} == given, f"in row {row['step']}"
+
+
+# --- one execution ------------------------------------------------------------------------------------------
+
+
+def test_outer_transitions_come_before_during_actions_and_these_before_inner_ones_and_children(
+    tmp_path: Path,
+) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\ndu: {note(2)}")
+        child = c.state(f"K\ndu: {note(4)}", a)
+        b = c.state("B")
+        c.transition(None, a)
+        c.transition(None, child)
+        c.transition(a, b, f"[u == 9]{{{note(1)}}}")
+        c.transition(a, child, f"[u == 8]{{{note(3)}}}", inner=True)
+
+    assert logged(running(tmp_path, draw), [0, 0, 8, 9]) == [0, 24, 2423, 24231]
+
+
+def test_the_first_step_only_enters_and_a_chart_may_be_entered_before_it(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state(f"A\nen: {note(1)}\ndu: {note(2)}"), c.state("B")
+        c.transition(None, a)
+        c.transition(a, b, f"[u == 1]{{{note(3)}}}")
+
+    assert logged(running(tmp_path, draw), [1, 1]) == [1, 13]
+    assert logged(running(tmp_path, draw, executeAtInitialization=1), [1, 1]) == [13, 13]
+
+
+def test_a_chart_without_states_runs_its_flow_in_every_step(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.transition(None, c.junction(), f"{{{note(1)}}}")
+
+    assert logged(running(tmp_path, draw), [0, 0, 0]) == [1, 11, 111]
+
+
+def test_outputs_may_begin_anew_in_every_step(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\ndu: if u == 1, {note(7)} end")
+        c.transition(None, a)
+
+    assert logged(running(tmp_path, draw), [0, 1, 0]) == [0, 7, 7]
+    assert logged(running(tmp_path, draw, initializeOutput=1), [0, 1, 0]) == [0, 7, 0]
+
+
+# --- paths --------------------------------------------------------------------------------------------------
+
+
+def test_condition_actions_of_a_path_that_fails_stay_done_and_the_next_one_is_tried(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state(f"B\nen: {note(5)}")
+        first, second = c.junction(), c.junction()
+        c.transition(None, a)
+        c.transition(a, first, f"{{{note(1)}}} / {note(8)}", 1)
+        c.transition(first, b, "[u == 1]", 1)
+        c.transition(first, second, f"{{{note(2)}}}", 2)
+        c.transition(second, b, "[u == 2]", 1)
+        c.transition(a, b, f"[u == 3]{{{note(3)}}} / {note(4)}", 2)
+
+    assert logged(running(tmp_path, draw), [0, 0, 3]) == [0, 12, 1212345]
+    assert logged(running(tmp_path, draw), [0, 2]) == [0, 1285]
+
+
+def test_a_junction_without_a_way_on_ends_the_search(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state(f"A\ndu: {note(2)}"), c.state("B")
+        c.transition(None, a)
+        c.transition(a, c.junction(), f"[u == 1]{{{note(1)}}}", 1)
+        c.transition(a, b, f"{{{note(3)}}}", 2)
+
+    assert logged(running(tmp_path, draw), [0, 1, 0]) == [0, 12, 123]
+
+
+def test_junctions_may_be_a_loop_that_a_guard_ends_and_one_without_end_is_told(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b, j = c.state("A"), c.state("B"), c.junction()
+        c.data("n", "local", "double", 0)
+        c.transition(None, a)
+        c.transition(a, j)
+        c.transition(j, j, f"[n < u]{{n = n + 1; {note(1)}}}", 1)
+        c.transition(j, b, "", 2)
+
+    assert logged(running(tmp_path, draw), [0, 3, 3]) == [0, 111, 111]
+    with pytest.raises(ChartFault, match=r"SSID \d+\) in C is in a loop of junctions without end"):
+        logged(running(tmp_path, draw), [0, 10**6])
+
+
+def test_a_self_transition_outside_leaves_and_enters_and_one_inside_only_what_is_in_it(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\nen: {note(1)}\nex: {note(2)}")
+        k = c.state(f"K\nen: {note(3)}\nex: {note(4)}", a)
+        c.transition(None, a)
+        c.transition(None, k)
+        c.transition(a, a, "[u == 1]", 1)
+        c.transition(a, a, "[u == 2]", 1, inner=True)
+        c.transition(a, k, "[u == 3]", 2)
+
+    assert logged(running(tmp_path, draw), [0, 1, 2]) == [13, 134213, 13421343]
+    assert logged(running(tmp_path, draw), [0, 3]) == [13, 134213], "outside to its own child"
+
+
+def test_a_transition_to_the_state_around_it_takes_its_default_transition(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\nen: {note(1)}\nex: {note(2)}")
+        k, m = c.state(f"K\nen: {note(3)}", a), c.state(f"M\nen: {note(4)}\nex: {note(5)}", a)
+        c.transition(None, a)
+        c.transition(None, k)
+        c.transition(k, m, "[u == 1]")
+        c.transition(m, a, "[u == 2]", holder=a)
+
+    assert logged(running(tmp_path, draw), [0, 1, 2]) == [13, 134, 13453]
+
+
+def test_regions_are_entered_in_order_and_left_in_reverse_around_an_explicit_one(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, p = c.state("A"), c.state(f"P\nen: {note(1)}\nex: {note(9)}", parallel=True)
+        regions = [c.state(f"R{n}\nen: {note(n + 1)}\nex: {note(n + 4)}", p, order=n) for n in (1, 2, 3)]
+        inside = c.state(f"X\nen: {note(8)}", regions[1])
+        other = c.state("Y", regions[1])
+        c.transition(None, a)
+        c.transition(None, other)
+        c.transition(a, inside, "[u == 1]")
+        c.transition(p, a, "[u == 2]")
+
+    assert logged(running(tmp_path, draw), [0, 1, 2]) == [0, 12384, 123847659]
+
+
+# --- history ------------------------------------------------------------------------------------------------
+
+
+def test_history_enters_the_state_that_was_left_also_where_a_transition_ends_on_it(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state("B")
+        k, m = c.state(f"K\nen: {note(1)}", a), c.state(f"M\nen: {note(2)}", a)
+        h = c.junction(a, history=True)
+        c.transition(None, a)
+        c.transition(None, k)
+        c.transition(k, m, "[u == 1]")
+        c.transition(a, b, "[u == 2]")
+        c.transition(b, a, "[u == 3]", 1)
+        c.transition(b, h, "[u == 4]", 2)
+
+    assert logged(running(tmp_path, draw), [0, 1, 2, 3, 2, 4]) == [1, 12, 12, 122, 122, 1222]
+
+
+# --- events -------------------------------------------------------------------------------------------------
+
+
+def test_an_event_runs_the_chart_at_once_and_to_one_state_only_this(tmp_path: Path) -> None:
+    def draw(c: WrittenChart, sends: str = "E;") -> None:
+        c.event("E")
+        r1 = c.state("R1", order=1)
+        r2 = c.state(f"R2\ndu: {note(5)}", order=2)
+        a, b = c.state("A", r1), c.state("B", r1)
+        x, y = c.state("X", r2), c.state(f"Y\nen: {note(2)}", r2)
+        c.transition(None, a)
+        c.transition(None, x)
+        c.transition(a, b, f"[u == 1]{{{note(1)} {sends} {note(3)}}}")
+        c.transition(x, y, "E")
+
+    def broadcast(c: WrittenChart) -> None:
+        draw(c, "if log < 10, E; end")
+
+    def directed(c: WrittenChart) -> None:
+        draw(c, "send(E, R2);")
+
+    assert logged(running(tmp_path, directed, parallel=True), [0, 1]) == [0, 15235]
+    assert logged(running(tmp_path, broadcast, parallel=True), [0, 1])[1] == 11523, "early: it was left"
+
+
+def test_what_an_action_would_do_is_dropped_once_its_state_was_left(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        a, b, z = c.state("A"), c.state(f"B\nen: {note(1)} E; {note(2)}"), c.state(f"Z\nen: {note(3)}")
+        inside = c.state(f"K\nen: {note(4)}", b)
+        c.transition(None, a)
+        c.transition(None, inside)
+        c.transition(a, b, "[u == 1]")
+        c.transition(b, z, "E")
+
+    assert logged(running(tmp_path, draw), [0, 1, 0]) == [0, 13, 13]
+
+
+def test_a_condition_action_that_has_its_state_left_drops_the_transition(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        a, b, z = c.state("A"), c.state(f"B\nen: {note(2)}"), c.state(f"Z\nen: {note(3)}")
+        c.transition(None, a)
+        c.transition(a, z, "E", 1)
+        c.transition(a, b, f"[u == 1]{{E; {note(1)}}}", 2)
+
+    assert logged(running(tmp_path, draw), [0, 1]) == [0, 3]
+
+
+def test_a_transition_action_after_which_another_state_is_active_is_the_last_one(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        p = c.state("P", order=1)
+        q = c.state("Q", order=2)
+        a, b = c.state("A", p), c.state(f"B\nen: {note(2)}", p)
+        other = c.state("O", q)
+        c.transition(None, a)
+        c.transition(None, other)
+        c.transition(a, b, f"[u == 1] / {note(1)} E; {note(4)}")
+        c.transition(other, other, f"E{{{note(3)}}}")
+
+    assert logged(running(tmp_path, draw, parallel=True), [0, 1]) == [0, 1342]
+
+
+def test_an_event_to_a_state_that_is_not_active_does_nothing(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        a, b = c.state(f"A\ndu: send(E, B); {note(1)}"), c.state(f"B\non E: {note(2)}")
+        c.transition(None, a)
+        c.transition(a, b, "[u == 1]")
+
+    assert logged(running(tmp_path, draw), [0, 0, 1]) == [0, 1, 1]
+
+
+def test_on_sections_run_in_an_execution_with_their_event(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        s = c.state("S", order=1)
+        t = c.state(f"T\non E: {note(2)}\ndu: {note(3)}", order=2)
+        k = c.state(f"K\ndu: if u == 1, {note(1)} send(E, T); end", s)
+        c.transition(None, k)
+        assert t
+
+    assert logged(running(tmp_path, draw, parallel=True), [0, 0, 1]) == [0, 3, 31323]
+
+
+# --- time ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("guard", "step"),
+    [
+        ("after(3, tick)", 3), ("after(0.3, sec)", 3), ("after(300, msec)", 3), ("at(2, tick)", 2),
+        ("before(2, tick)", 1), ("every(4, tick)", 4), ("temporalCount(tick) > 4", 5),
+        ("elapsed(sec) >= 0.3", 3), ("temporalCount(sec) >= 0.3", 3), ("duration(u == 1) >= 0.2", 2),
+        ("duration(u == 1) > 0.2", 3), ("duration(u == 1, msec) >= 300", 3), ("count(u == 1) >= 2", 2),
+        ("after(0.25, sec)", 3),
+    ],
+)  # fmt: skip
+def test_times_count_executed_steps_since_entry(tmp_path: Path, guard: str, step: int) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state(f"B\nen: {note(1)}")
+        c.transition(None, a)
+        c.transition(a, b, f"[{guard}]")
+
+    found = logged(running(tmp_path, draw), [1] * 10)
+    assert found.index(1) == step
+
+
+def test_a_duration_begins_anew_where_its_condition_does_not_hold(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state(f"B\nen: {note(1)}")
+        c.transition(None, a)
+        c.transition(a, b, "[duration(u == 1) >= 0.2]")
+
+    assert logged(running(tmp_path, draw), [1, 1, 0, 1, 1, 1]).index(1) == 5
+
+
+def test_events_are_counted_since_a_state_was_entered(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        s, t = c.state("S\ndu: if u == 1, send(E, T); end", order=1), c.state("T", order=2)
+        a, b = c.state("A", t), c.state(f"B\nen: {note(1)}", t)
+        c.transition(None, a)
+        c.transition(a, b, "after(2, E)")
+        assert s
+
+    assert logged(running(tmp_path, draw, parallel=True), [0, 1, 0, 1, 0]) == [0, 0, 0, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("guard", "inputs", "step"),
+    [
+        ("hasChanged(u)", [2, 2, 2, 3], 3), ("hasChangedTo(u, 3)", [2, 4, 3], 2),
+        ("hasChangedFrom(u, 2)", [2, 2, 5], 2), ("rising(u)", [-1, -1, 0, 1], 3),
+        ("falling(u)", [1, 1, 0, -1], 3), ("crossing(u)", [1, 1, -1], 2),
+    ],
+)  # fmt: skip
+def test_changes_are_seen_from_step_to_step(
+    tmp_path: Path, guard: str, inputs: list[float], step: int
+) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state(f"B\nen: {note(1)}")
+        c.transition(None, a)
+        c.transition(a, b, f"[{guard}]")
+
+    assert logged(running(tmp_path, draw), [*inputs, 9]).index(1) == step
+
+
+def test_a_time_in_seconds_needs_the_length_of_a_step(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state("B")
+        c.transition(None, a)
+        c.transition(a, b, "[after(1, sec)]")
+
+    with pytest.raises(ChartFault, match="the length of a step is not known"):
+        logged(running(tmp_path, draw, step="auto"), [0, 0])
+
+
+# --- functions ----------------------------------------------------------------------------------------------
+
+ADD = """function [y, calls] = add(x)
+persistent n
+if isempty(n)
+    n = 0;
+end
+n = n + 1;
+total = 0;
+for k = 1:3
+    if k == 2, continue; end
+    total = total + k * x;
+end
+while total > 100
+    total = total - 100;
+end
+switch n
+    case {1, 2}
+        y = total;
+    otherwise
+        y = -total;
+end
+calls = twice(n) / 2;
+end
+function z = twice(a)
+z = 2 * a;
+end
+"""
+
+
+def test_a_matlab_function_keeps_its_persistent_variables_once_in_a_chart(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        r = [c.state("R1\ndu: [log, n1] = add(u);", order=1), c.state("R2\ndu: [~, n2] = add(u);", order=2)]
+        function = c.function("[y, calls] = add(x)", script=ADD)
+        c.data("x", "function input", holder=function)
+        c.data("y", "function output", holder=function)
+        c.data("calls", "function output", holder=function)
+        assert r
+
+    outs = {**LOG, "n1": "double", "n2": "double"}
+    runner = running(tmp_path, draw, outs=outs, parallel=True)
+    assert [tuple(runner.step({"u": 2}).values()) for _ in range(3)] == [(0, 0, 0), (8, 1, 2), (-8, 3, 4)]
+
+
+def test_a_graphical_function_has_its_own_data_in_every_call(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state("A\ndu: log = largest(u, 3);")
+        f = c.function("m = largest(p, q)")
+        for name in "pq":
+            c.data(name, "function input", "double", holder=f)
+        c.data("m", "function output", "double", holder=f)
+        start, end = c.junction(f), c.junction(f)
+        c.transition(None, a)
+        c.transition(None, start, holder=f)
+        c.transition(start, end, "[p > q]{m = p;}", 1, holder=f)
+        c.transition(start, end, "{m = q;}", 2, holder=f)
+
+    assert logged(running(tmp_path, draw), [0, 1, 7]) == [0, 3, 7]
+
+
+# --- numbers ------------------------------------------------------------------------------------------------
+
+MATLAB = {
+    "int8(2.5)": 3, "int8(-2.5)": -3, "int8(300)": 127, "uint8(-4)": 0, "uint32(700) / uint32(1000)": 1,
+    "uint32(400) / uint32(1000)": 0, "uint32(3) - uint32(5)": 0, "uint8(200) + uint8(100)": 255,
+    "int16(7) / int16(2)": 4, "int16(-7) / int16(2)": -4, "int32(5) * 0.5": 3, "uint8(5) / 0": 255,
+    "double(single(0.1) == 0.1)": 1, "double(single(0.1)) == 0.1": 0, "1 / 0": float("inf"), "mod(-1, 3)": 2,
+    "rem(-1, 3)": -1, "mod(5.5, 2)": 1.5, "bitand(uint8(12), uint8(10))": 8, "bitor(uint8(12), 3)": 15,
+    "bitxor(uint8(6), uint8(3))": 5, "bitshift(uint8(255), 1)": 254, "bitshift(uint8(12), -2)": 3,
+    "bitcmp(uint8(1))": 254, "bitget(uint8(4), 3)": 1, "bitset(uint8(0), 2)": 2, "floor(-1.5)": -2,
+    "fix(-1.5)": -1, "round(-2.5)": -3, "ceil(1.2)": 2, "sign(-3)": -1, "abs(int8(-128))": 127,
+    "min(3, 2)": 2, "max([1 7 3])": 7, "sum([1 2; 3 4])": 10, "numel(zeros(1, 4))": 4, "[1 -2](2)": -2,
+    "any([0 0 1]) && all([1 1])": 1, "2 ^ 10": 1024, "-2 ^ 2": -4, "~1 == 0": 1, "1:3 == 1:3": 1,
+    "isequal([1 2], [1 2])": 1, "3 + true": 4, "cast(3.7, 'int8')": 4, "1e3": 1000, "0x1F": 31,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "value"), MATLAB.items())
+def test_numbers_are_those_of_matlab(tmp_path: Path, text: str, value: float) -> None:
+    if text.startswith("[1 -2]"):
+        text = "pick([1 -2])"
+
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\nen: log = double({text});")
+        c.function("y = pick(v)", script="function y = pick(v)\ny = v(2);\nend\n")
+        c.transition(None, a)
+
+    assert logged(running(tmp_path, draw), [0]) == [value]
+
+
+C = {
+    "7 / 2": 3, "-7 / 2": -3, "7 %% 4": 3, "(5 & 4) | 1": 5, "6 ^ 3": 5, "1 << 4": 16, "0x80 >> 3": 16,
+    "7.0 / 2": 3.5, "!(3 > 2)": 0, "~0 & 0xF": 15, "v[1] + v[0]": 30, "3 == 3 && 2 != 1": 1,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "value"), C.items())
+def test_numbers_are_those_of_c_where_a_chart_says_so(tmp_path: Path, text: str, value: float) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\nen: log = {text};")
+        c.data("v", "local", "int16", "[10 20]", size="[1 2]")
+        c.transition(None, a)
+
+    assert logged(running(tmp_path, draw, language="C with bit operations"), [0]) == [value]
+
+
+def test_integers_stop_at_their_ends_or_wrap_as_the_chart_says(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state("A\nen: n = uint8(250); log = double(n);\ndu: n = n + 10; log = double(n);")
+        c.data("n", "local", "uint8")
+        c.transition(None, a)
+
+    assert logged(running(tmp_path, draw), [0, 0]) == [250, 255]
+    assert logged(running(tmp_path, draw, saturates=False), [0, 0]) == [250, 4]
+
+
+@pytest.mark.parametrize(
+    ("action", "why"),
+    [
+        ("log = nothing(1);", "nothing is not known here"),
+        ("log = int8(1) + int16(1);", "MATLAB takes integers of one type only"),
+        ("other = 1;", "there is no datum other to write to"),
+        ("log = [1 2];", r"log is of 1x1, and its value of 1x2"),
+        ("while true, log = 1; end", "a loop of more than 1,000,000 turns"),
+        ("log = f(1);", "calls itself, or more than 100 functions call each other"),
+    ],
+)
+def test_what_has_no_meaning_is_told_with_its_chart(tmp_path: Path, action: str, why: str) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state(f"A\nen: {action}")
+        c.function("y = f(x)", script="function y = f(x)\ny = f(x);\nend\n")
+        c.transition(None, a)
+
+    with pytest.raises(ChartFault, match=f"^C: .*{why}"):
+        logged(running(tmp_path, draw), [0])
