@@ -78,7 +78,8 @@ def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
     if chart.machine == "Moore":
         yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
     levels = list(chart.content.every_level())
-    ends = {one.ssid for level in levels for one in (*level.states, *level.junctions)}
+    ends = {state.ssid for level in levels for state in level.states}
+    ends |= {junction.ssid for level in levels for junction in level.junctions}
     yield from _level(chart, chart.content, chart.path, None, ends)
 
 

@@ -4,6 +4,7 @@ by default.
 
 import re
 from collections.abc import Iterator, Mapping
+from itertools import chain
 from typing import Literal, TypeVar, cast
 
 from rovercheck.checker.drawn.records import (
@@ -114,11 +115,14 @@ class _ChartReader:
         """The same content.  Raises ``ModelError`` if two elements of it have one number."""
         seen: dict[int, int] = {}
         for level in content.every_level():
-            for one in (*level.states, *level.transitions, *level.junctions, *level.data, *level.events):
+            every: Iterator[DrawnState | DrawnTransition | DrawnJunction | DrawnData | DrawnEvent] = chain(
+                level.states, level.transitions, level.junctions, level.data, level.events
+            )
+            for one in every:
                 if one.ssid in seen:
                     raise ModelError(
-                        f"{self.place}, line {one.line}: the element has SSID {one.ssid}, and so has the one "
-                        f"in line {seen[one.ssid]}. Save the model again in Simulink."
+                        f"{self.place}, line {one.line}: the element has SSID {one.ssid}, and so has "
+                        f"the one in line {seen[one.ssid]}. Save the model again in Simulink."
                     )
                 seen[one.ssid] = one.line
         return content
