@@ -57,7 +57,9 @@ class _ExpressionWriter:
     def _bare(self, expression: Expression) -> tuple[str, int]:
         match expression:
             case UnaryOperation("'" | ".'" as operator, operand):
-                return self.text(operand, _RAISED) + operator, _RAISED
+                text = self.text(operand, _RAISED)
+                # a quote behind a text would be a part of it
+                return (f"({text})" if text.endswith("'") and operator == "'" else text) + operator, _RAISED
             case UnaryOperation(operator, operand):
                 sign, text = self.prefix[operator], self.text(operand, _PREFIXED)
                 return f"{sign} {text}" if text.startswith(sign) else sign + text, _PREFIXED

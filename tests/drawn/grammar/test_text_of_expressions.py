@@ -156,6 +156,7 @@ def test_blanks_lines_and_comments_between_words_change_nothing(
         ("(a+b)*c ~= d'", MATLAB, "(a + b) * c ~= d'"),
         ("[1 -2;x(end) 'it''s']", MATLAB, "[1, -2; x(end), 'it''s']"),
         ("1:n-1", MATLAB, "1:n - 1"),
+        ("('')'", MATLAB, "('')'"),
         ("!(a!=b)&&p->x[2].y", C, "!(a != b) && p->x[2].y"),
         ("(mode>>1)|(flags&0x80)", C_BITS, "mode >> 1 | flags & 0x80"),
         ("1.5F+2U-(- -a)", C, "1.5F + 2 - - -a"),
