@@ -32,7 +32,15 @@ FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
 CHECKED = "rovercheck check --model heater.py"
 ACCEPTS = 'rovercheck accept HEAT-3 --model heater.py --because "The valve comes." --owner "A. Rossi"'
 
+IMPORTS = Instead(
+    "names files of a user; the page shows two of those in examples/simulink",
+    "rovercheck import examples/simulink/1_lamp/lamp.slx",
+)
+
 COMMANDS = {
+    "rovercheck import MODEL.slx": IMPORTS,
+    "rovercheck import supervisor.slx --beside types.sldd --beside parameters.m": IMPORTS,
+    "rovercheck import supervisor.slx": IMPORTS,
     "rovercheck robustness --system board1 --impl c:FOLDER": CROSSCHECKS,
     "mkdir tank": INSTALLS,
     "cd tank": INSTALLS,
