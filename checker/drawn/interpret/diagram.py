@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 from rovercheck.checker.drawn.grammar.syntax import Expression
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS, parameter, parsed_value
@@ -136,10 +137,16 @@ class _System:
         self._by_id = {node.block.id: node for node in self._nodes}
         ends = [node for node in self._nodes if node.block.kind == "Outport"]
         self._ends = sorted(ends, key=lambda node: number_of(node.block))
+        for node in self._nodes:
+            if node.chart is not None:
+                node.outputs = _outputs_of(node.chart)
+            elif node.system is not None:
+                node.outputs = node.system.at_rest()
 
     def _node(self, block: DrawnBlock, wiring: Wiring) -> _Node:
         ports = [int(port) for target, port in wiring.feeds if target == block.id and port.isdigit()]
         inputs = [wiring.feeds.get((block.id, str(number))) for number in range(1, max(ports, default=0) + 1)]
+        self._check(block)
         node = _Node(block, inputs)
         control = [port for target, port in wiring.feeds if target == block.id and not port.isdigit()]
         if control:
@@ -158,6 +165,35 @@ class _System:
         elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", *_CONTROLS):
             raise ChartFault(f"the block {block.path}: {block.kind} is not known here")
         return node
+
+    def _check(self, block: DrawnBlock) -> None:
+        """Refuse what would make a block run at another rate, or begin anew.  Raises ``ChartFault``."""
+        path, parameters = " ".join(block.path.split()), block.parameters
+        rate = parameters.get("SampleTime", "-1").strip()
+        if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
+            rate = chart.sample_time.strip() or "-1"
+        if rate not in ("-1", "0", "inf") and not _same_number(rate, self._runner.step_length):
+            step = self._runner.step_length
+            raise ChartFault(
+                f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
+            )
+        for name, kind in (("StatesWhenEnabling", "EnablePort"), ("OutputWhenDisabled", "Outport")):
+            if block.kind == kind and parameters.get(name, "held") == "reset":
+                raise ChartFault(f"the block {path}: {name} = reset is not known here; held is")
+
+    def at_rest(self) -> list[MatlabValue]:
+        """The outputs of a system that was not executed yet."""
+        found: list[MatlabValue] = []
+        for node in self._ends:
+            written = node.block.parameters.get("InitialOutput", "[]").strip()
+            source = None if node.inputs[:1] in ([], [None]) else self._by_id[_port(node)[0]]
+            if written != "[]":
+                found.append(self._runner.value_of(written))
+            elif source is None or not (source.outputs or source.memory is not None):
+                found.append(double(0))
+            else:
+                found.append(self._value(_port(node)))
+        return found
 
     def initialize(self) -> None:
         """Charts that are so drawn are entered before the first step."""
@@ -202,7 +238,7 @@ class _System:
         if node.system is not None:
             if self._runs(node):
                 return node.system.step(values)
-            return node.outputs or [double(0)] * len(node.system._ends)
+            return node.outputs
         return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
 
     @staticmethod
@@ -245,7 +281,7 @@ class _System:
                 machine.step()
             elif events:
                 machine.step(events)
-        return [machine.memory.values[d.ssid] for d in data.values() if d.scope == "output"]
+        return _outputs_of(machine)
 
     def _events(self, node: _Node, machine: ChartMachine) -> list[str] | None:
         """The input events of this step; ``None`` for a chart without any, which runs in every step."""
@@ -256,6 +292,25 @@ class _System:
         before, node.was = node.was, now
         found = zip(every, before, now, strict=False)
         return [one.name for one, old, new in found if _edge(one.trigger, old, new)]
+
+
+def _outputs_of(machine: ChartMachine) -> list[MatlabValue]:
+    """The values of a chart's outputs, in the order of their ports."""
+    data = machine.chart.root.data.values()
+    return [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
+
+
+def _same_number(one: str, other: str) -> bool:
+    try:
+        return Fraction(one) == Fraction(other)
+    except (ValueError, ZeroDivisionError):
+        return False
+
+
+def _port(node: _Node) -> tuple[str, int]:
+    port = node.inputs[0]
+    assert port is not None
+    return port
 
 
 _CONTROLS = ("EnablePort", "TriggerPort", "ActionPort")

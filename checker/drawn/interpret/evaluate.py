@@ -152,9 +152,10 @@ class Evaluator(ABC):
 
     def _several(self, expression: Expression, frame: Frame, wanted: int) -> list[MatlabValue]:
         """The values of a call, of which so many are wanted; of anything else its value."""
-        found = self._words.word(expression, frame)
-        if found is not None:
-            return [found]
+        if not (isinstance(expression, Applied) and self._is_of_the_chart(expression.function, frame)):
+            found = self._words.word(expression, frame)
+            if found is not None:
+                return [found]
         match expression:
             case Member(Name(owner), name) if member := self.memory.types.member(name, owner):
                 if self._is_no_datum(owner, frame):
@@ -175,6 +176,13 @@ class Evaluator(ABC):
             case Name(name):
                 return self._called(name, (), frame)
         return [self.value(expression, frame)]
+
+    def _is_of_the_chart(self, called: Expression, frame: Frame) -> bool:
+        """Whether a datum or a function has the name, which may be that of a word of time."""
+        if not isinstance(called, Name):
+            return False
+        functions = frame.script.keys() | {name for node in frame.node.lineage() for name in node.functions}
+        return called.name in functions or not self._is_no_datum(called.name, frame)
 
     def _is_no_datum(self, name: str, frame: Frame) -> bool:
         local = (frame.local or {}).keys() | frame.kept

@@ -1,0 +1,181 @@
+"""Diagrams around charts at work: order, delays, control, events, and what is refused."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from rovercheck.checker.drawn.interpret.diagram import ModelRunner
+from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.simulink.model import read_model
+from tests.drawn.charts import logged, note, running
+from tests.simulink.writer.charts import WrittenChart
+from tests.simulink.writer.packages import WrittenModel
+from tests.simulink.writer.systems import WrittenSystem
+
+TWO = {"in": 2, "out": 1}
+
+
+def read(model: WrittenModel, folder: Path) -> ModelRunner:
+    return ModelRunner(read_model(model.save(folder / "one.slx")))
+
+
+def ports(system: WrittenSystem, ins: Mapping[str, str], outs: int = 1) -> tuple[list[str], list[str]]:
+    given = [system.inport(name, n, OutDataTypeStr=kind) for n, (name, kind) in enumerate(ins.items(), 1)]
+    return given, [system.outport(f"y{n}", n) for n in range(1, outs + 1)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "expected"),
+    [
+        ("Sum", {"Inputs": "+-"}, -3), ("Product", {"Inputs": "*/"}, 0.4), ("Logic", {"Operator": "XOR"}, 0),
+        ("Logic", {"Operator": "NAND"}, 0), ("RelationalOperator", {"Operator": "<"}, 1),
+        ("RelationalOperator", {"Operator": "~="}, 1), ("MinMax", {"Function": "max"}, 5),
+        ("Sum", {"Inputs": "|++", "OutDataTypeStr": "uint8"}, 7),
+    ],
+)  # fmt: skip
+def test_blocks_compute_what_they_are_named_for(
+    tmp_path: Path, kind: str, values: Mapping[str, object], expected: float
+) -> None:
+    model = WrittenModel("one")
+    [a, b], [y] = ports(model.root, {"a": "double", "b": "double"})
+    block = model.root.block(kind, "block", TWO, **values)
+    model.root.line(a, f"{block}/1")
+    model.root.line(b, f"{block}/2")
+    model.root.line(block, y)
+    assert read(model, tmp_path).step({"a": 2, "b": 5}) == {"y1": expected}
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "given", "expected"),
+    [
+        ("Gain", {"Gain": "2.5"}, 2, 5), ("Abs", {}, -3, 3), ("Logic", {"Operator": "NOT"}, 0, 1),
+        ("Saturate", {"LowerLimit": "-1", "UpperLimit": "1"}, 7, 1),
+        ("DataTypeConversion", {"OutDataTypeStr": "int8"}, -1.5, -2),
+        ("DataTypeConversion", {"OutDataTypeStr": "int8", "RndMeth": "Zero"}, -1.5, -1),
+        ("DataTypeConversion", {"OutDataTypeStr": "uint8"}, 260, 4),
+        ("DataTypeConversion", {"OutDataTypeStr": "uint8", "SaturateOnIntegerOverflow": "on"}, 260, 255),
+    ],
+)  # fmt: skip
+def test_blocks_with_one_input_do_too(
+    tmp_path: Path, kind: str, values: Mapping[str, object], given: float, expected: float
+) -> None:
+    model = WrittenModel("one")
+    [a], [y] = ports(model.root, {"a": "double"})
+    block = model.root.block(kind, "block", {"in": 1, "out": 1}, **values)
+    model.root.line(a, block)
+    model.root.line(block, y)
+    assert read(model, tmp_path).step({"a": given}) == {"y1": expected}
+
+
+@pytest.mark.parametrize(("criteria", "chosen"), [("u2 >= Threshold", 1), ("u2 > Threshold", 3)])
+def test_a_switch_takes_its_first_input_where_its_second_says_so(
+    tmp_path: Path, criteria: str, chosen: float
+) -> None:
+    model = WrittenModel("one")
+    [a, b, c], [y] = ports(model.root, {"a": "double", "b": "double", "c": "double"})
+    switch = model.root.block("Switch", "s", {"in": 3, "out": 1}, Criteria=criteria, Threshold="5")
+    for number, port in enumerate((a, b, c), 1):
+        model.root.line(port, f"{switch}/{number}")
+    model.root.line(switch, y)
+    assert read(model, tmp_path).step({"a": 1, "b": 5, "c": 3}) == {"y1": chosen}
+
+
+def test_a_delay_gives_what_it_got_a_step_before_also_to_a_block_that_feeds_it(tmp_path: Path) -> None:
+    model = WrittenModel("one")
+    [a], [y] = ports(model.root, {"a": "double"})
+    total = model.root.block("Sum", "total", TWO)
+    delay = model.root.block("UnitDelay", "before", {"in": 1, "out": 1}, InitialCondition="10")
+    model.root.line(a, f"{total}/1")
+    model.root.line(delay, f"{total}/2")
+    model.root.line(total, delay)
+    model.root.line(total, y)
+    runner = read(model, tmp_path)
+    assert [runner.step({"a": 1})["y1"] for _ in range(3)] == [11, 12, 13]
+
+
+def test_blocks_that_feed_each_other_without_a_delay_are_refused(tmp_path: Path) -> None:
+    model = WrittenModel("one")
+    [a], [y] = ports(model.root, {"a": "double"})
+    total = model.root.block("Sum", "total", TWO)
+    model.root.line(a, f"{total}/1")
+    model.root.line(total, f"{total}/2")
+    model.root.line(total, y)
+    with pytest.raises(ChartFault, match="feed each other without a delay"):
+        read(model, tmp_path)
+
+
+def enabled(folder: Path, **values: object) -> ModelRunner:
+    """A chart that counts, in a subsystem that runs where ``on`` is true."""
+    model = WrittenModel("one")
+    [on], [y] = ports(model.root, {"on": "boolean"})
+    block, inside = model.root.subsystem("Sub", 0, 1, "enable")
+    inside.block("EnablePort", "Enable", **values)
+    out = inside.outport("n", 1)
+    chart_block, chart = inside.chart("Count")
+    chart.data("n", "output", "uint8", 7)
+    chart.transition(None, chart.state("A\nen: n = uint8(1);\ndu: n = n + 1;"))
+    inside.line(chart_block, out)
+    model.root.line(on, f"{block}#enable")
+    model.root.line(block, y)
+    return read(model, folder)
+
+
+def test_a_subsystem_that_is_not_enabled_is_frozen_and_gives_first_what_its_chart_begins_with(
+    tmp_path: Path,
+) -> None:
+    runner = enabled(tmp_path)
+    assert [runner.step({"on": on})["y1"] for on in (0, 1, 1, 0, 0, 1)] == [7, 1, 2, 2, 2, 3]
+
+
+def test_a_subsystem_that_begins_anew_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ChartFault, match="StatesWhenEnabling = reset is not known here"):
+        enabled(tmp_path, StatesWhenEnabling="reset")
+
+
+def test_a_chart_with_input_events_runs_when_one_occurs_and_once_for_each(tmp_path: Path) -> None:
+    model = WrittenModel("one")
+    [a, b], [y] = ports(model.root, {"a": "double", "b": "double"})
+    both = model.root.block("Mux", "both", TWO)
+    block, chart = model.root.chart("C")
+    chart.data("log", "output", "double")
+    chart.event("UP", "INPUT_EVENT", "RISING_EDGE_EVENT")
+    chart.event("ANY", "INPUT_EVENT", "EITHER_EDGE_EVENT")
+    chart.transition(None, chart.state(f"A\non UP: {note(1)}\non ANY: {note(2)}\ndu: {note(3)}"))
+    model.root.line(a, f"{both}/1")
+    model.root.line(b, f"{both}/2")
+    model.root.line(both, f"{block}#trigger")
+    model.root.line(block, y)
+    runner = read(model, tmp_path)
+    steps = [(0, 0), (1, 0), (1, 1), (0, 1), (1, 0)]
+    found = [runner.step({"a": one, "b": other})["y1"] for one, other in steps]
+    assert found == [0, 0, 32, 32, 323132], "entered by the first, then UP before ANY"
+
+
+def test_a_block_of_another_rate_is_refused(tmp_path: Path) -> None:
+    model = WrittenModel("one")
+    [a], [y] = ports(model.root, {"a": "double"})
+    delay = model.root.block("UnitDelay", "slow", {"in": 1, "out": 1}, SampleTime="0.5")
+    model.root.line(a, delay)
+    model.root.line(delay, y)
+    with pytest.raises(ChartFault, match=r"slow runs every 0.5 s, and the model every 0.1 s"):
+        read(model, tmp_path)
+
+
+def test_a_block_without_a_meaning_is_named(tmp_path: Path) -> None:
+    model = WrittenModel("one")
+    [a], [y] = ports(model.root, {"a": "double"})
+    block = model.root.block("TransferFcn", "filter", {"in": 1, "out": 1})
+    model.root.line(a, block)
+    model.root.line(block, y)
+    with pytest.raises(ChartFault, match="the block filter: TransferFcn is not known here"):
+        read(model, tmp_path)
+
+
+def test_a_function_of_the_chart_may_have_the_name_of_a_word_of_time(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state("A\nen: log = count(u);")
+        c.function("y = count(x)", script="function y = count(x)\ny = x + 40;\nend\n")
+        c.transition(None, a)
+
+    assert logged(running(tmp_path, draw), [2]) == [42]
