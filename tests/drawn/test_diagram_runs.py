@@ -39,7 +39,7 @@ def test_blocks_compute_what_they_are_named_for(
 ) -> None:
     model = WrittenModel("one")
     [a, b], [y] = ports(model.root, {"a": "double", "b": "double"})
-    block = model.root.block(kind, "block", TWO, **values)
+    block = model.root.block(kind, "block", TWO, {}, **values)
     model.root.line(a, f"{block}/1")
     model.root.line(b, f"{block}/2")
     model.root.line(block, y)
@@ -62,7 +62,7 @@ def test_blocks_with_one_input_do_too(
 ) -> None:
     model = WrittenModel("one")
     [a], [y] = ports(model.root, {"a": "double"})
-    block = model.root.block(kind, "block", {"in": 1, "out": 1}, **values)
+    block = model.root.block(kind, "block", {"in": 1, "out": 1}, {}, **values)
     model.root.line(a, block)
     model.root.line(block, y)
     assert read(model, tmp_path).step({"a": given}) == {"y1": expected}
@@ -110,7 +110,7 @@ def enabled(folder: Path, **values: object) -> ModelRunner:
     model = WrittenModel("one")
     [on], [y] = ports(model.root, {"on": "boolean"})
     block, inside = model.root.subsystem("Sub", 0, 1, "enable")
-    inside.block("EnablePort", "Enable", **values)
+    inside.block("EnablePort", "Enable", {}, {}, **values)
     out = inside.outport("n", 1)
     chart_block, chart = inside.chart("Count")
     chart.data("n", "output", "uint8", 7)
