@@ -118,6 +118,8 @@ def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNot
         why = "it is a message, with a queue. Use an event, or a datum and a counter"
     elif "fixdt" in one.type or one.type.startswith(("sfix", "ufix")):
         why = f"{one.type} is a fixed-point type. Use a type of integers, and scale in the chart"
+    elif one.scope == "data store":
+        why = "it is a data store, which other blocks write, too. Connect it as an input and an output"
     elif one.type == "string" or one.type.startswith("stringtype"):
         why = "it is a string. Use an enumeration"
     if why:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.drawn.interpret.values import TRUE, ChartFault
 from rovercheck.checker.simulink.model import read_model
 from tests.drawn.charts import logged, note, running
 from tests.simulink.writer.charts import WrittenChart
@@ -165,10 +165,10 @@ def test_a_block_of_another_rate_is_refused(tmp_path: Path) -> None:
 def test_a_block_without_a_meaning_is_named(tmp_path: Path) -> None:
     model = WrittenModel("one")
     [a], [y] = ports(model.root, {"a": "double"})
-    block = model.root.block("TransferFcn", "filter", {"in": 1, "out": 1})
+    block = model.root.block("Lookup_n-D", "table", {"in": 1, "out": 1})
     model.root.line(a, block)
     model.root.line(block, y)
-    with pytest.raises(ChartFault, match="the block filter: TransferFcn is not known here"):
+    with pytest.raises(ChartFault, match="the block table: Lookup_n-D is not known here"):
         read(model, tmp_path)
 
 
@@ -179,3 +179,51 @@ def test_a_function_of_the_chart_may_have_the_name_of_a_word_of_time(tmp_path: P
         c.transition(None, a)
 
     assert logged(running(tmp_path, draw), [2]) == [42]
+
+
+def test_what_is_refused_is_not_run(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.transition(None, c.state("A"))
+
+    with pytest.raises(ChartFault, match="C, the chart: it has super step semantics"):
+        running(tmp_path, draw, enableNonTerminalStates=1)
+
+
+def test_a_parameter_has_the_value_of_a_script_beside_the_model(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.data("LIMIT", "parameter", "double")
+        c.transition(None, c.state("A\nen: log = LIMIT + u;"))
+
+    with pytest.raises(ChartFault, match=r"C: the value of LIMIT stands in no file: name a script"):
+        running(tmp_path, draw)
+    script = tmp_path / "values.m"
+    script.write_text("LIMIT = 2 * 20; % of all\n", encoding="utf-8")
+    runner = ModelRunner(read_model(tmp_path / "one.slx", [script]))
+    assert runner.step({"u": 2}) == {"log": 42}
+
+
+def test_an_output_may_hold_whether_a_state_is_active(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state("B")
+        c.data("in_b", "output", "boolean", more={"outputState": b.ssid})
+        c.transition(None, a)
+        c.transition(a, b, "[u == 1]", 1)
+        c.transition(b, a, "[u == 0]", 1)
+
+    runner = running(tmp_path, draw)
+    [one] = [machine.memory for machine in runner.machines]
+    [in_b] = [d.ssid for d in runner.model.charts[0].content.data if d.name == "in_b"]
+    found = []
+    for u in (0, 1, 1, 0):
+        runner.step({"u": u})
+        found.append(one.values[in_b])
+    assert [value == TRUE for value in found] == [False, True, True, False]
+
+
+def test_an_event_to_other_blocks_is_refused(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("OUT", "OUTPUT_EVENT", "EITHER_EDGE_EVENT")
+        c.transition(None, c.state("A\nen: OUT;"))
+
+    with pytest.raises(ChartFault, match="OUT is an event to other blocks"):
+        logged(running(tmp_path, draw), [0])

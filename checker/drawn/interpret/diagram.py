@@ -24,6 +24,7 @@ from rovercheck.checker.drawn.interpret.values import (
 from rovercheck.checker.drawn.interpret.wiring import DELAYS, Wiring, number_of, wired
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel, DrawnSystem
+from rovercheck.checker.drawn.refused import notes_of
 
 Number = int | float
 
@@ -37,6 +38,10 @@ class ModelRunner:
     def __init__(self, model: DrawnModel, step: str = "") -> None:
         self.model, self.types = model, TypeTable.of(model)
         self.step_length = step or model.step
+        self.named = {one.name: one.value for one in model.parameters}
+        for note in notes_of(model):
+            if note.kind == "refused":
+                raise ChartFault(str(note).rstrip("."))
         self._top = _System(model.system, self)
         root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
         self._inports = [root[number] for number in sorted(root)]
@@ -80,7 +85,12 @@ class ModelRunner:
     @property
     def fired(self) -> list[str]:
         """The transitions that charts took in the last step, flow charts too."""
-        return [str(one) for machine in self._top.machines() for one in machine.fired]
+        return [str(one) for machine in self.machines for one in machine.fired]
+
+    @property
+    def machines(self) -> list[ChartMachine]:
+        """The charts at work, in their order of execution."""
+        return list(self._top.machines())
 
     # --- what blocks need ----------------------------------------------------------------------------------
 
@@ -93,8 +103,7 @@ class ModelRunner:
 
     def value_of(self, text: str) -> MatlabValue:
         """The value of a parameter.  Raises ``ChartFault``."""
-        named = {one.name: one.value for one in self.model.parameters}
-        tree = parsed_value(parameter(text, named))
+        tree = parsed_value(parameter(text, self.named))
         runner = StatementRunner(_NoChart.memory(self.types), _NoChart())
         return runner.value(tree, Frame(StateNode(0, "", "", None), NumberRules()))
 
@@ -155,7 +164,10 @@ class _System:
             chart = parsed_chart(self._runner.chart(block.chart))
             if chart.notes:
                 raise ChartFault(str(chart.notes[0]))
-            node.chart = ChartMachine(chart, self._runner.types, self._runner.step_length)
+            if chart.drawn.activity_output:
+                raise ChartFault(f"{block.path}: the output of the active state is not known here")
+            runner = self._runner
+            node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
         elif block.kind == "SubSystem" and block.system is not None:
             node.system = _System(block.system, self._runner)
             ports_ = [one for one in block.system.blocks if one.kind == "TriggerPort"]
@@ -329,7 +341,7 @@ class _NoChart:
 
     @staticmethod
     def memory(types: TypeTable) -> ChartMemory:
-        return ChartMemory(types, NumberRules(), {})
+        return ChartMemory(types, NumberRules())
 
     def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
         return None

@@ -35,14 +35,17 @@ Found = list[TransitionNode] | Literal["end"] | None
 
 
 class ChartMachine:
-    """One chart with its memory.  ``ports`` are the types of its inherited inputs and outputs."""
+    """One chart with its memory.  ``named`` are values of parameters, as written, by their names.
+
+    Raises ``ChartFault`` for what has no value.
+    """
 
     def __init__(
-        self, chart: ParsedChart, types: TypeTable, step: str, ports: Mapping[str, str] | None = None
+        self, chart: ParsedChart, types: TypeTable, step: str, named: Mapping[str, str] | None = None
     ) -> None:
         self.chart = chart
         self.rules = NumberRules(chart.language.name != "MATLAB", chart.drawn.saturates)
-        self.memory = ChartMemory(types, self.rules, ports or {})
+        self.memory = ChartMemory(types, self.rules)
         self.clock = ChartClock(chart, step)
         self._runner = StatementRunner(self.memory, self)
         self._persistent: dict[int, dict[str, MatlabValue]] = {}
@@ -52,14 +55,10 @@ class ChartMachine:
         self._events: list[str] = []
         self._tried = 0
         self.begun = False
+        self._activities = [d for d in chart.root.data.values() if d.activity_of is not None]
         self.fired: list[TransitionNode] = []
         """The transitions taken in this step, those of flow charts too."""
-        for node in chart.root.every():
-            for one in node.data.values():
-                self.memory.declare(one, self._initial)
-            for function in node.functions.values():
-                for one in function.data.values():
-                    self.memory.declare(one, self._initial)
+        self.memory.declare_all(chart, named or {}, self._initial)
 
     def _initial(self, text: str) -> MatlabValue:
         return self._runner.value(parse_expression(text, self.chart.language), self._frame(self.chart.root))
@@ -96,6 +95,9 @@ class ChartMachine:
             else:
                 self._first()
             self._events = []
+        for one in self._activities:
+            assert one.activity_of is not None
+            self.memory.write(one.ssid, logical(self.chart.states.get(one.activity_of) in self.active))
         self.clock.end(self.active, self._holds)
 
     def _first(self) -> None:
@@ -330,8 +332,14 @@ class ChartMachine:
         return True
 
     def _is_event(self, name: str, frame: Frame) -> bool:
-        local = frame.local or {}
-        return name not in local and any(name in node.events for node in self.chart.root.every())
+        if name in (frame.local or {}):
+            return False
+        found = next((node.events[name] for node in self.chart.root.every() if name in node.events), None)
+        if found is not None and found.scope == "output":
+            raise ChartFault(
+                f"{name} is an event to other blocks, which is not known here: give them a datum"
+            )
+        return found is not None
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         if len(self._events) >= MOST_NESTED:

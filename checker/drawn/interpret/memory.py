@@ -18,7 +18,7 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
-from rovercheck.checker.drawn.parsed import StateNode
+from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
 
 ENUM, BUS = "Enum:", "Bus:"
@@ -98,10 +98,10 @@ def dimensions(text: str) -> tuple[int, int]:
 
 
 class ChartMemory:
-    """The values of a chart's data.  ``ports``: the types of inherited inputs and outputs, by name."""
+    """The values of a chart's data; one of an inherited type has that of its first value."""
 
-    def __init__(self, types: TypeTable, rules: NumberRules, ports: Mapping[str, str]) -> None:
-        self.types, self.rules, self._ports = types, rules, ports
+    def __init__(self, types: TypeTable, rules: NumberRules) -> None:
+        self.types, self.rules = types, rules
         self._data: dict[int, DrawnData] = {}
         self._kinds: dict[int, str] = {}
         self._initial: dict[int, MatlabValue] = {}
@@ -111,14 +111,23 @@ class ChartMemory:
         self.before: dict[int, MatlabValue] = {}
         """And at the start of the step before, if there was one."""
 
-    def declare(self, one: DrawnData, value_of: Callable[[str], MatlabValue]) -> None:
-        """A datum with its initial value.  Raises ``ChartFault``."""
-        kind = self.types.kind(one.type) or self._ports.get(one.name, "")
+    def declare_all(
+        self, chart: ParsedChart, named: Mapping[str, str], value_of: Callable[[str], MatlabValue]
+    ) -> None:
+        """All data of a chart; ``named`` are values of parameters, as written.  Raises ``ChartFault``."""
+        for node in chart.root.every():
+            for data in (node.data, *(function.data for function in node.functions.values())):
+                for one in data.values():
+                    self.declare(one, _initial_of(one, chart, named), value_of)
+
+    def declare(self, one: DrawnData, initial: str, value_of: Callable[[str], MatlabValue]) -> None:
+        """A datum with its initial value, as written.  Raises ``ChartFault``."""
+        kind = self.types.kind(one.type)
         rows, columns = dimensions(one.size)
         self._data[one.ssid], self._kinds[one.ssid] = one, kind
         value = self.types.initial(kind or "double", rows, columns)
-        if one.initial.strip():
-            value = self._fitted(value_of(one.initial), kind, (rows, columns))
+        if initial.strip():
+            value = self._fitted(value_of(initial), kind, (rows, columns))
         self.values[one.ssid] = self._initial[one.ssid] = value
 
     def _fitted(self, value: MatlabValue, kind: str, size: tuple[int, int]) -> MatlabValue:
@@ -153,6 +162,18 @@ class ChartMemory:
     def note_start(self) -> None:
         """A step begins."""
         self.before, self.start = self.start, dict(self.values)
+
+
+def _initial_of(one: DrawnData, chart: ParsedChart, named: Mapping[str, str]) -> str:
+    """The initial value of a datum, as written; that of a parameter has its name."""
+    if one.scope != "parameter" and not one.from_workspace:
+        return one.initial
+    if one.name not in named:
+        raise ChartFault(
+            f"{chart.drawn.path}: the value of {one.name} stands in no file: name a script that says "
+            f"`{one.name} = ...`"
+        )
+    return named[one.name]
 
 
 def datum_of(node: StateNode, name: str) -> DrawnData | None:
