@@ -83,6 +83,7 @@ class StateNode:
     data: Mapping[str, DrawnData] = field(default_factory=dict)
     events: Mapping[str, DrawnEvent] = field(default_factory=dict)
     functions: dict[str, "FunctionNode"] = field(default_factory=dict)
+    line: int = 0
 
     def lineage(self) -> Iterator["StateNode"]:
         """This state and those that it is in, up to the chart."""
@@ -173,7 +174,7 @@ class _Parser:
 
     def _state(self, parent: StateNode, state: DrawnState) -> None:
         path = f"{parent.path}/{state.name}"
-        node = StateNode(state.ssid, state.name, path, parent, state.parallel, state.order)
+        node = StateNode(state.ssid, state.name, path, parent, state.parallel, state.order, line=state.line)
         parent.children.append(node)
         self._states[state.ssid] = node
         try:

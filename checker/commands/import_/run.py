@@ -14,6 +14,7 @@ from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.records import DrawnChart, DrawnModel
 from rovercheck.checker.drawn.refused import DrawingNote, notes_of
+from rovercheck.checker.drawn.unknown import unknown_names
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.simulink.model import read_model
 
@@ -27,8 +28,8 @@ def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: 
     """Read a model, and say what is in it.  Raises ``ModelError`` for a file that cannot be read."""
     model = read_model(path, beside)
     notes = list(notes_of(model))
-    for chart in model.charts:
-        notes += parsed_chart(chart).notes
+    for chart in map(parsed_chart, model.charts):
+        notes += [*chart.notes, *unknown_names(chart, model.enumerations)]
     compared = None if log is None else compared_with(model, log)
     code = Exit.INCONCLUSIVE if any(note.kind == "refused" for note in notes) else Exit.AS_EXPECTED
     if compared is not None and compared.differences:
