@@ -244,6 +244,19 @@ def test_an_event_to_a_state_that_is_not_active_does_nothing(tmp_path: Path) -> 
     assert logged(running(tmp_path, draw), [0, 0, 1]) == [0, 1, 1]
 
 
+def test_a_region_is_not_executed_once_the_state_around_it_was_left(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        p, z = c.state("P", parallel=True), c.state(f"Z\nen: {note(3)}")
+        first = c.state(f"R1\ndu: if u == 1, {note(1)} E; end", p, order=1)
+        second = c.state(f"R2\ndu: {note(2)}", p, order=2)
+        c.transition(None, p)
+        c.transition(p, z, "E")
+        assert first and second
+
+    assert logged(running(tmp_path, draw), [0, 0, 1]) == [0, 2, 213]
+
+
 def test_on_sections_run_in_an_execution_with_their_event(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
         c.event("E")
@@ -387,6 +400,21 @@ def test_a_graphical_function_has_its_own_data_in_every_call(tmp_path: Path) -> 
         c.transition(start, end, "{m = q;}", 2, holder=f)
 
     assert logged(running(tmp_path, draw), [0, 1, 7]) == [0, 3, 7]
+
+
+def test_in_a_graphical_function_transition_actions_run_at_once(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a = c.state("A\ndu: log = f();")
+        f = c.function("m = f()")
+        c.data("m", "function output", "double", holder=f)
+        start, middle, end = c.junction(f), c.junction(f), c.junction(f)
+        c.transition(None, a)
+        c.transition(None, start, holder=f)
+        c.transition(start, middle, "/ m = 5;", 1, holder=f)
+        c.transition(middle, end, "[m == 5]{m = m + 2;}", 1, holder=f)
+        c.transition(start, end, "{m = 9;}", 2, holder=f)
+
+    assert logged(running(tmp_path, draw), [0, 0]) == [0, 7]
 
 
 # --- numbers ------------------------------------------------------------------------------------------------
