@@ -292,6 +292,43 @@ def test_times_count_executed_steps_since_entry(tmp_path: Path, guard: str, step
     assert found.index(1) == step
 
 
+@pytest.mark.parametrize(
+    ("word", "values"),
+    [
+        ("before(2, tick)", "11000"), ("after(2, tick)", "00111"), ("at(2, tick)", "00100"),
+        ("every(2, tick)", "00101"), ("temporalCount(tick)", "01234"), ("count(u == 1)", "01234"),
+    ],
+)  # fmt: skip
+def test_times_may_stand_in_actions_too(tmp_path: Path, word: str, values: str) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.transition(None, c.state(f"A\nen, du: log = log * 10 + double({word});"))
+
+    assert logged(running(tmp_path, draw), [1] * 5)[-1] == int(values)
+
+
+def test_times_begin_anew_when_a_state_is_entered_again(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        s, t = c.state("S\ndu: send(E, T);", order=1), c.state("T", order=2)
+        a, b = c.state("A", t), c.state("B", t)
+        c.transition(None, a)
+        c.transition(a, b, "[duration(u < 9) >= 0.2 || u == 5]{log = log + 1;}", 1)
+        c.transition(b, a, "after(2, E){log = log + 100;}", 1)
+        assert s
+
+    steps = logged(running(tmp_path, draw, parallel=True), [1] * 9)
+    assert steps == [0, 0, 1, 1, 101, 101, 102, 102, 202]
+
+
+def test_nothing_has_changed_in_the_first_step(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state(f"B\nen: {note(1)}")
+        c.transition(None, a)
+        c.transition(a, b, "[hasChanged(u) || rising(u)]")
+
+    assert logged(running(tmp_path, draw, executeAtInitialization=1), [5, 5, 6]) == [0, 0, 1]
+
+
 def test_a_duration_begins_anew_where_its_condition_does_not_hold(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
         a, b = c.state("A"), c.state(f"B\nen: {note(1)}")

@@ -33,7 +33,8 @@ class ChartClock:
         self._ticks: dict[StateNode, int] = {}
         self._seen: dict[tuple[StateNode, str], int] = {}
         self._held: dict[tuple[int, StateNode], int] = {}
-        self._operators = list(_durations(chart))
+        # a section of two kinds has its texts twice
+        self._operators = list({(id(one), node): (one, node) for one, node in _durations(chart)}.values())
         self._executed = 0
 
     def begin(self, active: Iterable[StateNode]) -> None:
