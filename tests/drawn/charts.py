@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Literal
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
@@ -18,7 +19,7 @@ def running(
     ins: Mapping[str, str] | None = None,
     outs: Mapping[str, str] = LOG,
     step: str = "0.1",
-    language: str = "MATLAB",
+    language: Literal["MATLAB", "C", "C with bit operations"] = "MATLAB",
     parallel: bool = False,
     saturates: bool = True,
     **more: object,
@@ -31,7 +32,7 @@ def running(
     ]
     ends = [model.root.outport(name, n) for n, name in enumerate(outs, 1)]
     block, chart = model.root.chart("C")
-    chart.language, chart.parallel, chart.saturates = language, parallel, saturates  # type: ignore[assignment]
+    chart.language, chart.parallel, chart.saturates = language, parallel, saturates
     chart.more = more
     for name in inputs:
         chart.data(name, "input")
