@@ -234,6 +234,28 @@ def test_a_transition_action_after_which_another_state_is_active_is_the_last_one
     assert logged(running(tmp_path, draw, parallel=True), [0, 1]) == [0, 1342]
 
 
+def test_a_transition_action_after_which_its_scope_was_left_is_the_last_one(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        s, z = c.state("S"), c.state(f"Z\nen: {note(3)}")
+        a, b = c.state("A", s), c.state(f"B\nen: {note(2)}", s)
+        c.transition(None, s)
+        c.transition(None, a)
+        c.transition(a, b, f"[u == 1] / {note(1)} E; {note(4)}")
+        c.transition(s, z, "E")
+
+    assert logged(running(tmp_path, draw), [0, 1]) == [0, 13]
+
+
+def test_a_state_is_active_while_its_exit_action_runs(tmp_path: Path) -> None:
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A\nex: log = 10 + double(in(A));"), c.state("B\nen: log = log * 10 + double(in(A));")
+        c.transition(None, a)
+        c.transition(a, b, "[u == 1]")
+
+    assert logged(running(tmp_path, draw), [0, 1]) == [0, 110]
+
+
 def test_an_event_to_a_state_that_is_not_active_does_nothing(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
         c.event("E")
@@ -430,10 +452,11 @@ def test_a_graphical_function_has_its_own_data_in_every_call(tmp_path: Path) -> 
         for name in "pq":
             c.data(name, "function input", "double", holder=f)
         c.data("m", "function output", "double", holder=f)
+        c.data("calls", "local", "double", 0, holder=f)
         start, end = c.junction(f), c.junction(f)
         c.transition(None, a)
-        c.transition(None, start, holder=f)
-        c.transition(start, end, "[p > q]{m = p;}", 1, holder=f)
+        c.transition(None, start, "{calls = calls + 1;}", holder=f)
+        c.transition(start, end, "[p > q && calls == 1]{m = p;}", 1, holder=f)
         c.transition(start, end, "{m = q;}", 2, holder=f)
 
     assert logged(running(tmp_path, draw), [0, 1, 7]) == [0, 3, 7]

@@ -149,9 +149,7 @@ class ChartMachine:
                 self._execute(child)
             return
         for region in node.children:
-            if not self._is_active(node):
-                return
-            if region in self.active:
+            if region in self.active:  # none is, once the state around them was left
                 self._execute(region)
 
     # --- paths ---------------------------------------------------------------------------------------------
@@ -218,7 +216,7 @@ class ChartMachine:
     def _take(self, path: Sequence[TransitionNode], source: StateNode) -> None:
         """Leave, act and enter along a path; what an early return drops is dropped."""
         self.fired += path
-        scope = self._scope(path, source)
+        scope = self._scope(path)
         with suppress(Dropped):
             self._exit_children(scope)
             for one in path:
@@ -228,17 +226,14 @@ class ChartMachine:
             assert target is not None, "a complete path ends at a state"
             self._enter_children(scope, self._chain(scope, target))
 
-    def _scope(self, path: Sequence[TransitionNode], source: StateNode) -> StateNode:
-        """The innermost state that holds all of a path; an outer transition leaves its source in any case."""
+    def _scope(self, path: Sequence[TransitionNode]) -> StateNode:
+        """The innermost state that holds all of a path: an outer transition is drawn outside its source."""
         holders = [list(one.holder.lineage())[::-1] for one in path]
         scope = self.chart.root
         for nodes in zip(*holders, strict=False):
             if any(node is not nodes[0] for node in nodes):
                 break
             scope = nodes[0]
-        leaves = path[0].source is source and not path[0].drawn.inner
-        if leaves and source in scope.lineage() and source.parent is not None:
-            return source.parent
         return scope
 
     def _may_go_on(self, scope: StateNode) -> bool:
