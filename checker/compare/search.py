@@ -180,7 +180,11 @@ class CompareSearch:
         return found if self.known is None else self.known.told(found)
 
     def _mismatch(self, deviation: Deviation) -> StepMismatch:
-        return mismatch_of(self._runs[deviation.origin, deviation.first.tick], deviation)
+        """A deviation in the run in which it is met first; on top of causes found, in one that is kept."""
+        key = deviation.origin, deviation.first.tick
+        if key not in self._runs:
+            self._runs[key] = self._evidence.run(self.env.board, deviation.origin)[1].up_to(key[1])
+        return mismatch_of(self._runs[key], deviation)
 
     def _stages(self) -> tuple[CompareStage, ...]:
         """How much of each kind of runs was tried, and why not all of it."""
@@ -206,9 +210,7 @@ class CompareSearch:
         self.doing = "looking for causes"
         first = self.leading(self._deviations(), self._evidence)
         for origin, on_top in ({} if self.known is None else self.known.left).items():
-            number, run = self._evidence.run(self.env.board, origin)
-            self.notable.more(number, run, on_top)
-            self._runs |= {(origin, one.first.tick): run.up_to(one.first.tick) for one in on_top}
+            self.notable.more(*self._evidence.run(self.env.board, origin), on_top)
         todo = [self._mismatch(one) for one in first[: self.allowance.mismatches]]
         left = self.allowance.total
         for number, mismatch in enumerate(todo, 1):

@@ -9,7 +9,9 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.compare import grouping
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups
 from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 
 LATE = """
@@ -126,6 +128,27 @@ def test_what_shows_behind_another_cause_alone_is_told_at_once(
     capsys.readouterr()
     plain = told(folder, capsys, "Late", "--no-causes")
     assert sorted(words(plain)) == [("new", False), ("new", False)] and plain["undecided"]
+
+
+def test_an_interruption_while_more_causes_are_looked_for_loses_nothing(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It ended in an internal error: the runs of what was found on top were not there yet."""
+    searches = []
+
+    def searched(*given: Any) -> CauseGroups:
+        searches.append(given)
+        if len(searches) == 2:
+            raise KeyboardInterrupt
+        return cause_groups(*given)
+
+    monkeypatch.setattr(grouping, "cause_groups", searched)
+    code = compared(folder, "Late", "--causes", "--json")
+    result = json.loads(capsys.readouterr().out)["results"][0]
+    assert code is Exit.FAILED and len(searches) == 2
+    assert sorted(words(result)) == [("new", False), ("new", False), ("new", True)]
+    told = [id for cause in result["causes"] for id in cause["deviations"]]
+    assert sorted(told) == sorted(one["id"] for one in result["mismatches"])
 
 
 def test_what_is_left_on_top_of_the_causes_is_written_and_known(folder: Path, known: Path) -> None:
