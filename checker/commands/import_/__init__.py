@@ -25,7 +25,7 @@ FILE = click.Path(path_type=Path)
     "uses.  The dictionary that the model names, and classes in its folder, are found.",
 )  # fmt: skip
 @click.option(
-    "--compare", "log", type=click.Path(exists=True, dir_okay=False, path_type=Path), metavar="LOG.csv",
+    "--compare", "log", type=FILE, metavar="LOG.csv",
     help="Run the model on the inputs of a log, a row a step, and compare its outputs: columns are named as "
     "the ports, elements as in probe.level and force(2).",
 )  # fmt: skip
