@@ -98,7 +98,8 @@ def _rows(log: Path, inputs: Sequence[str]) -> Iterator[tuple[int, dict[str, flo
                     cells = zip(head, row, strict=False)
                     yield line, {name: _number(log, line, name, cell) for name, cell in cells}
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"{log}: {error}. Write a table of comma-separated values.") from error
+        why = error.strerror if isinstance(error, OSError) else error
+        raise UsageError(f"{log}: {why}. Name a table of comma-separated values.") from error
 
 
 def _number(log: Path, line: int, name: str, cell: str) -> float:
