@@ -16,7 +16,12 @@ from pathlib import Path
 
 from benchmarks.edits import LEFT_OUT, ROOT
 
-TESTS = ("tests/drawn/test_interpreter.py", "tests/drawn/test_diagram_runs.py")
+TESTS = (
+    "tests/drawn/test_interpreter.py",
+    "tests/drawn/test_interpreter_times.py",
+    "tests/drawn/test_interpreter_numbers.py",
+    "tests/drawn/test_diagram_runs.py",
+)
 INTERPRETER = Path("checker/drawn/interpret")
 
 

@@ -7,6 +7,7 @@ from functools import reduce
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression
+from rovercheck.checker.drawn.interpret.functions import BUILTINS
 from rovercheck.checker.drawn.interpret.memory import BUS, TypeTable
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
@@ -120,8 +121,6 @@ def _conversion(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: V
         ways = {"Floor": "floor", "Ceiling": "ceil", "Zero": "fix", "Nearest": "round", "Round": "round"}
         if rounding not in ways:
             raise ChartFault(f"the rounding {rounding} is not known: Floor, Ceiling, Zero, Nearest or Round")
-        from rovercheck.checker.drawn.interpret.functions import BUILTINS
-
         return [each_converted(BUILTINS[ways[rounding]]([inputs[0]], WRAPS), kind, rules_of(block))]
     return [each_converted(inputs[0], kind, rules_of(block))]
 

@@ -94,8 +94,6 @@ class ChartClock:
         word = _word(unit)
         if word in UNITS:
             value = value / self._seconds(unit)
-            if value.denominator != 1:
-                value = Fraction(value.numerator // value.denominator + 1) if name == "after" else value
         if word in UNITS or word == "tick":
             return logical(LIMITS[name](Fraction(self._ticks.get(frame.node, 0)), value))
         return logical(event == word and LIMITS[name](Fraction(self._seen.get((frame.node, word), 0)), value))

@@ -13,7 +13,6 @@ from rovercheck.checker.drawn.interpret.values import (
     Scalar,
     Structure,
     array,
-    double,
     each_converted,
     scalars,
     shape,
@@ -181,4 +180,4 @@ def datum_of(node: StateNode, name: str) -> DrawnData | None:
     return next((one.data[name] for one in node.lineage() if name in one.data), None)
 
 
-__all__ = ["BUS", "ENUM", "ChartMemory", "TypeTable", "datum_of", "dimensions", "double"]
+__all__ = ["BUS", "ENUM", "ChartMemory", "TypeTable", "datum_of", "dimensions"]

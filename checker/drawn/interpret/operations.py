@@ -66,7 +66,7 @@ def _scalar(sign: str, left: Scalar, right: Scalar, rules: NumberRules) -> Scala
     if sign in BITS:
         return Scalar(kind, _pattern(BITS[sign](int(left.value), int(right.value)), kind))
     if sign in ("<<", ">>"):
-        return _shifted(sign, left, right, rules)
+        return _shifted(sign, left, right)
     if kind in WHOLE or kind == LITERAL:
         return Scalar(kind, _of_integers(sign, left.value, right.value, kind, rules))
     one, other = float(left.value), float(right.value)
@@ -111,7 +111,7 @@ def _pattern(value: int, kind: str) -> int:
     return value if kind == LITERAL else in_range(value, kind, saturates=False)
 
 
-def _shifted(sign: str, left: Scalar, right: Scalar, rules: NumberRules) -> Scalar:
+def _shifted(sign: str, left: Scalar, right: Scalar) -> Scalar:
     by, kind = int(right.value), left.kind
     if not 0 <= by < 64 or not left.whole:
         raise ChartFault(f"{left.kind} {sign} {by} has no meaning: integers are shifted by 0 to 63 bits")
