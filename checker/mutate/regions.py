@@ -55,12 +55,17 @@ class RegionsInOneMemory:
         others = [s for s in root.states if s not in (self.first, self.second)]
         rest = [self.chart.with_root(replace(root, states=tuple(others)))] if others else []
         block = self._block(system)
+        counted = {var.name: _either_sign(var) for pair in self.since.values() for var in pair}
 
         def walk(component: Component) -> tuple[Component, ...]:
             if isinstance(component, Enabled):
                 inside = [new for old in component.components for new in walk(old)]
                 return (Enabled(component.by, *inside, name=component.name, place=component.place),)
-            return (*rest, block) if component is self.chart else (component,)
+            alone: tuple[Chart | Block, ...] = (*rest, block) if component is self.chart else (component,)
+            return tuple(
+                with_memory(one, counted) if counted.keys() & (one.read.keys() | one.written.keys()) else one
+                for one in alone
+            )
 
         return kept(system, replace(system, components=tuple(n for c in system.components for n in walk(c))))
 
@@ -149,6 +154,11 @@ def _in_one_memory(
         return None
     data = {name: pair for name, pair in pairs.items() if name not in since}
     return RegionsInOneMemory(chart, first, second, data, since)
+
+
+def _either_sign(var: Var) -> Var:
+    """The variable with as large numbers below 0 as above it."""
+    return replace(var, domain=Domain(var.sort, range(-var.domain.high, var.domain.high + 1)))
 
 
 def _sends(chart: Chart) -> bool:

@@ -210,6 +210,19 @@ def test_monitors_are_one_structure(first: str, second: str, bits: int) -> None:
     assert len(levels) > 8
 
 
+def test_what_has_gone_by_may_be_negative() -> None:
+    """`compare --variant` ended with a message about a domain that such a gap leaves."""
+    board = boards()["board2"]
+    changed = with_change(board, WrittenChange("shared", "Monitors_2", "regions/32", "Rx", "BLE"))
+    reader, run, random = changed.reader(), Interpreter(changed.system, measured=True), Random(2)
+    least = 0
+    for now, given in stamps(random, 300):
+        at = reader.step({**board.at_power_up(), **given, "now_ms": now})
+        run.step({name: at[name] for name in changed.system.inputs})
+        least = min(least, *(value for name, value in run.data.items() if name.endswith("_pending_ms")))
+    assert least < 0
+
+
 def test_it_explains_what_it_does_and_no_other_pair_does(monkeypatch: pytest.MonkeyPatch) -> None:
     """Such firmware was told as nine findings, none of them with its cause."""
     board, random = boards()["board2"], Random(1)
