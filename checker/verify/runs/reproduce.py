@@ -11,6 +11,7 @@ from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import EngineQuery, Result, check_domains, result
 from rovercheck.checker.verify.runs.minimise import minimise_inputs, transferred
 from rovercheck.properties.reduce import Goal, Question, reduce
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
 Runs = Mapping[str, tuple[Reached, str]]
@@ -23,12 +24,20 @@ def reproduced(question: Question, runs: Runs, concrete: System, query: EngineQu
     The same inputs are tried first: a run of the concrete system as short as the shortest of the
     over-approximation is a shortest one.  What is left is searched for, all goals together.
     """
-    reached = [g for g in question.goals if g.var.name in runs]
+    found: list[Result] = []
+    reached: list[Goal] = []
+    for goal in (g for g in question.goals if g.var.name in runs):
+        why = _meaningless(goal, concrete)
+        if why:
+            found.append(_only_here(question.system.name, goal, runs[goal.var.name], concrete.name, why))
+        else:
+            reached.append(goal)
+    if not reached:
+        return found
     there = reduce(lowered(concrete), [replace(g.property, on=concrete.name) for g in reached])
     asked = PortfolioQuestion(there.system, ())
     if there.system.checks and shape(asked).enumerable:  # else it costs too much
         check_domains(there.system, query(there.system, []))
-    found: list[Result] = []
     left: list[tuple[Goal, Goal]] = []
     for goal, same in zip(reached, there.goals, strict=True):
         answer, by = runs[goal.var.name]
@@ -38,6 +47,24 @@ def reproduced(question: Question, runs: Runs, concrete: System, query: EngineQu
         else:
             found.append(result(there.system, same, run, by))
     return found + (_searched(question, runs, there, left, query) if left else [])
+
+
+def _meaningless(goal: Goal, concrete: System) -> str:
+    """Why a property has no meaning on a concrete system: it may speak of a value that is free elsewhere."""
+    try:
+        reduce(lowered(concrete), [replace(goal.property, on=concrete.name)])
+    except ModelError as error:
+        return str(error)
+    return ""
+
+
+def _only_here(name: str, goal: Goal, reached: tuple[Reached, str], concrete: str, why: str) -> Result:
+    answer, by = reached
+    reason = (
+        f"reached after {counted_ticks(len(answer.run))} on {name}, an over-approximation; {concrete}, on "
+        f"which it would be reproduced, cannot be asked: {why}"
+    )
+    return Result(goal.property, Unknown(reason, len(answer.run) - 1, by), name)
 
 
 def not_reproducible(question: Question, runs: Runs) -> list[Result]:
