@@ -84,6 +84,7 @@ class StateNode:
     events: Mapping[str, DrawnEvent] = field(default_factory=dict)
     functions: dict[str, "FunctionNode"] = field(default_factory=dict)
     line: int = 0
+    label: str = ""
 
     def lineage(self) -> Iterator["StateNode"]:
         """This state and those that it is in, up to the chart."""
@@ -174,7 +175,7 @@ class _Parser:
 
     def _state(self, parent: StateNode, state: DrawnState) -> None:
         path = f"{parent.path}/{state.name}"
-        node = StateNode(state.ssid, state.name, path, parent, state.parallel, state.order, line=state.line)
+        node = StateNode(state.ssid, state.name, path, parent, state.parallel, state.order, line=state.line, label=state.label)
         parent.children.append(node)
         self._states[state.ssid] = node
         try:

@@ -316,23 +316,38 @@ def _local(
 
 
 class Block:
-    """A function block: its actions run once in every step in which it is executed."""
+    """A function block: its actions run once in every step in which it is executed.
+
+    ``temporaries`` are written before they are read in every step, and are no part of a state.
+    """
 
     def __init__(
-        self, name: str, do: Sequence[Action], *, text: str = "", place: Place | None = None
+        self,
+        name: str,
+        do: Sequence[Action],
+        *,
+        text: str = "",
+        temporaries: Sequence[Var] = (),
+        place: Place | None = None,
     ) -> None:
         self.name = name
         self.text = text
         self.do = several(f"Block {name!r}", "do", do)
+        self.temporaries = tuple(temporaries)
         self.place = place or here()
 
     @cached_property
     def written(self) -> dict[str, Var]:
-        return writes(self.do)
+        return self._lasting(writes(self.do))
 
     @cached_property
     def read(self) -> dict[str, Var]:
-        return reads(self.do)
+        return self._lasting(reads(self.do))
+
+    def _lasting(self, found: dict[str, Var]) -> dict[str, Var]:
+        for one in self.temporaries:
+            found.pop(one.name, None)
+        return found
 
     def __repr__(self) -> str:
         return f"Block({self.name!r})"

@@ -7,6 +7,8 @@ from typing import TypeAlias, Union
 
 import numpy as np
 
+from rovercheck.checker.drawn.faults import ChartFault
+
 WHOLE: Mapping[str, tuple[int, int]] = {
     f"{sign}int{bits}": (0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
     for bits in (8, 16, 32, 64)
@@ -17,10 +19,6 @@ FLOATS = ("double", "single")
 LITERAL = "literal"
 """A whole number in a text of C, which takes the type of what it is computed with."""
 TYPES = (*WHOLE, *FLOATS, "logical")
-
-
-class ChartFault(Exception):
-    """Something that a step does and that has no meaning: what, and where."""
 
 
 @dataclass(frozen=True, slots=True)

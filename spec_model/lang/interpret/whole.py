@@ -9,7 +9,9 @@ from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
+from rovercheck.spec_model.lang.interpret.program import ProgramRun
 from rovercheck.spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.wellformed import check_system
 
@@ -39,8 +41,10 @@ class Interpreter:
         self._at |= {v.name: v.init for v in system.frozen} | _checked("frozen", system.frozen, frozen)
         self._fired: list[FiredTransition] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
-        self._runs = {
-            id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed)
+        self._runs: dict[int, ChartRun | ProgramRun] = {
+            id(c): ProgramRun(c, self._at, self._fired, self._admits)
+            if isinstance(c, ProgrammedChart)
+            else ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed)
             for c in system.charts
         }
 

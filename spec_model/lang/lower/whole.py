@@ -9,6 +9,7 @@ from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
 from rovercheck.spec_model.lang.expr import FALSE, Var
 from rovercheck.spec_model.lang.lower.flow import ChartFlow
 from rovercheck.spec_model.lang.lower.ranges import check_of, guarded
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from rovercheck.spec_model.lang.system import Program, Statement, System, TransitionSystem
 from rovercheck.spec_model.lang.wellformed import check_system
 
@@ -58,11 +59,16 @@ class _Made:
                     out += self._chart(component)
                 case Block():
                     out += _lowered_block(ByIdentity(component))
+                    self.flags += component.temporaries
                 case Enabled():
                     out.append(If(component.by, self.run(component.components)))
         return tuple(out)
 
     def _chart(self, chart: Chart) -> Program:
+        if isinstance(chart, ProgrammedChart):
+            self.locations += [chart.entered, *chart.locations]
+            self.flags += chart.program.temporaries
+            return tuple(_block(chart.program.unmarked))
         step, timers, flags = _lowered_chart(ByIdentity(chart), self.tick_ms, ByIdentity(self.elapsed))
         self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
         self.timers += timers

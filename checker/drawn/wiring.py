@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 
 Port = tuple[str, int]

@@ -1,0 +1,362 @@
+"""Expressions of charts and MATLAB functions as formulas."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from rovercheck.checker.drawn.grammar.functions import ScriptFunction
+from rovercheck.checker.drawn.grammar.syntax import (
+    Applied,
+    BinaryOperation,
+    ColonRange,
+    Expression,
+    Indexed,
+    LastIndex,
+    Matrix,
+    Member,
+    Name,
+    Number,
+    NumberKind,
+    TextLiteral,
+    UnaryOperation,
+    WholeRange,
+    parts,
+)
+from rovercheck.checker.drawn.lower.arithmetic import (
+    IntegerRules,
+    as_number,
+    binary,
+    condition_of,
+    each_converted,
+    unary,
+)
+from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
+from rovercheck.checker.drawn.lower.data import DataTable
+from rovercheck.checker.drawn.lower.names import Scope, datum_in, function_in
+from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.symbols import (
+    LOGICAL,
+    REALS,
+    UNTYPED,
+    NotLowered,
+    Symbolic,
+    SymbolicArray,
+    SymbolicScalar,
+    SymbolicStructure,
+    chosen,
+    filled,
+    flat,
+    folded,
+    leaves,
+    matrix,
+    number,
+    single_of,
+    size_of,
+    truth,
+)
+from rovercheck.checker.drawn.parsed import FunctionNode
+from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var
+
+MOST_ELEMENTS = 10_000
+
+
+class ExpressionWriter(ABC):
+    """Makes formulas of the texts of one chart; what it calls is written before the formula."""
+
+    def __init__(self, table: DataTable, writer: ProgramWriter) -> None:
+        self.table, self.writer = table, writer
+        self.cells: dict[int, Symbolic] = {}
+        """The data of the chart by SSID: variables, or the formulas that feed its inputs."""
+        self.persistent: dict[str, Symbolic] = {}
+
+    # --- what only the chart, or the statements, know ------------------------------------------------------
+
+    @abstractmethod
+    def word(self, expression: Expression, scope: Scope) -> Symbolic | None:
+        """The value of an expression of the chart's own, as ``after(3, sec)``; ``None`` if it is none."""
+
+    @abstractmethod
+    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+        """Call a function of the chart."""
+
+    @abstractmethod
+    def script(self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+        """Call a MATLAB function of the script that a text stands in."""
+
+    # --- values --------------------------------------------------------------------------------------------
+
+    def value(self, expression: Expression, scope: Scope) -> Symbolic:
+        """The value of an expression.  Raises ``NotLowered``."""
+        match expression:
+            case Number(value, kind):
+                return number(self._kind(value.denominator == 1, kind, scope), value)
+            case Name(name):
+                return self._named(name, expression, scope)
+            case Member() | Applied():
+                found = self.several(expression, scope)
+                if not found:
+                    raise NotLowered("a function that gives nothing stands where a value must")
+                return found[0]
+            case Indexed(whole, index):
+                value, at = self._both(whole, index, scope)
+                return self._element(value, as_number(single_of(at)), self.first_index(whole, scope))
+            case UnaryOperation(sign, operand):
+                return unary(sign, self.value(operand, scope), scope.rules)
+            case BinaryOperation("&&" | "||" as sign, left, right):
+                return truth(self._short(sign, left, right, scope))
+            case BinaryOperation(sign, left, right):
+                one, other = self._both(left, right, scope)
+                return binary(sign, one, other, scope.rules)
+            case Matrix(rows):
+                return self._matrix([[self.value(one, scope) for one in row] for row in rows], scope)
+            case ColonRange():
+                return self._range(expression, scope)
+            case LastIndex():
+                return number("double", scope.last)
+            case TextLiteral(text):
+                raise NotLowered(f"the text {text!r} has no value here")
+        raise NotLowered("it has no value")
+
+    def condition(self, expression: Expression, scope: Scope) -> Expr:
+        """An expression as a condition."""
+        return condition_of(self.value(expression, scope))
+
+    @staticmethod
+    def _kind(whole: bool, kind: NumberKind, scope: Scope) -> str:
+        if whole and kind in (NumberKind.INTEGER, NumberKind.BITS) and scope.rules.c:
+            return UNTYPED
+        return "single" if kind is NumberKind.SINGLE else "double"
+
+    def _both(self, left: Expression, right: Expression, scope: Scope) -> tuple[Symbolic, Symbolic]:
+        """Two values, of which the first is what it was before the second was computed."""
+        one = self.value(left, scope)
+        if self._does(right, scope):
+            one = self.kept(one)
+        return one, self.value(right, scope)
+
+    def kept(self, value: Symbolic) -> Symbolic:
+        """A value as it is now, whatever is assigned later."""
+        made = [self.writer.kept("value", one) for _, one in leaves(value, "")]
+        return filled(value, iter(made))
+
+    def _does(self, expression: Expression, scope: Scope) -> bool:
+        """Whether a function is called in an expression, which may write data."""
+        names = (one.function.name for one in parts(expression) if isinstance(one, Applied) and isinstance(one.function, Name))
+        plain = (one.name for one in parts(expression) if isinstance(one, Name))
+        return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
+
+    def _short(self, sign: str, left: Expression, right: Expression, scope: Scope) -> Expr:
+        """``&&`` and ``||``, of which the right side is computed only where it decides."""
+        one = self.condition(left, scope)
+        if isinstance(one, Const) and bool(one.value) == (sign == "||"):
+            return one
+        if not self._does(right, scope):
+            other = self.condition(right, scope)
+            return folded(one & other if sign == "&&" else one | other)
+        key = f"{scope.function}:?"
+        self.writer.locals[key] = truth(one)
+
+        def rest() -> None:
+            made = self.kept(truth(self.condition(right, scope)))
+            self.writer.locals[key] = made
+
+        self.writer.choose(one if sign == "&&" else folded(~one), rest)
+        found = self.writer.locals.pop(key)
+        return single_of(found).expr
+
+    def _named(self, name: str, expression: Expression, scope: Scope) -> Symbolic:
+        if scope.function and (local := self.writer.locals.get(f"{scope.function}:{name}")) is not None:
+            if isinstance(local, SymbolicStructure) and local.kind == "two types":
+                raise NotLowered(f"{name} has values of several types or sizes: give each a name")
+            return local
+        if name in scope.kept:
+            if (kept := self.persistent.get(f"{scope.keeper}.{name}")) is not None:
+                return self._now(kept)
+            raise NotLowered(f"{name} is read, and nothing is assigned to it before")
+        if (datum := datum_in(scope.node, name)) is not None:
+            return self._now(self.cells[datum.ssid])
+        found = self.several(expression, scope)
+        if not found:
+            raise NotLowered(f"{name} has no value")
+        return found[0]
+
+    def _now(self, value: Symbolic) -> Symbolic:
+        """A datum with what is known of its value at this point."""
+        made = [
+            SymbolicScalar(one.kind, self.writer.read(one.expr) if isinstance(one.expr, Var) else one.expr)
+            for _, one in leaves(value, "")
+        ]
+        return filled(value, iter(made))
+
+    def is_datum(self, name: str, scope: Scope) -> bool:
+        """Whether a name is that of a variable or a datum."""
+        local = bool(scope.function) and f"{scope.function}:{name}" in self.writer.locals
+        return local or name in scope.kept or datum_in(scope.node, name) is not None
+
+    def several(self, expression: Expression, scope: Scope) -> list[Symbolic]:
+        """All values of a call; of anything else its value."""
+        own = isinstance(expression, Applied) and isinstance(expression.function, Name) and (
+            self.is_datum(expression.function.name, scope)
+            or expression.function.name in scope.script
+            or function_in(scope.node, expression.function.name) is not None
+        )  # fmt: skip
+        if not own and (found := self.word(expression, scope)) is not None:
+            return [found]
+        match expression:
+            case Member(Name(owner), name) if not self.is_datum(owner, scope):
+                if (member := self.table.kinds.member(name, owner)) is not None:
+                    return [member]
+            case Name(name) if name not in scope.script:
+                if (member := self.table.kinds.member(name)) is not None:
+                    return [member]
+        match expression:
+            case Member(structure, name):
+                value = self.value(structure, scope)
+                if isinstance(value, SymbolicStructure) and name in value.elements:
+                    return [value.elements[name]]
+                raise NotLowered(f"there is no element {name}")
+            case Applied(Name(name), arguments) if not self.is_datum(name, scope):
+                return self._called(name, arguments, scope)
+            case Applied(whole, arguments):
+                value = self.value(whole, scope)
+                return [self._indexed(value, arguments, scope)]
+            case Name(name):
+                return self._called(name, (), scope)
+        return [self.value(expression, scope)]
+
+    def _called(self, name: str, arguments: Iterable[Expression], scope: Scope) -> list[Symbolic]:
+        given = list(arguments)
+        if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
+            text = given.pop()
+            assert isinstance(text, TextLiteral)
+            made = self.value(given[0], scope) if name == "cast" else self._called(name, given, scope)[0]
+            return [each_converted(made, self.table.kinds.kind(text.value), scope.rules, self.table.kinds)]
+        if name == "isempty" and len(given) == 1 and isinstance(given[0], Name) and given[0].name in scope.kept:
+            return [truth(self.is_unset(given[0].name, scope))]
+        values: list[Symbolic] = []
+        for number_, one in enumerate(given):
+            if isinstance(one, TextLiteral):
+                continue
+            value = self.value(one, scope)
+            later = any(self._does(other, scope) for other in given[number_ + 1 :])
+            values.append(self.kept(value) if later else value)
+        function = function_in(scope.node, name)
+        if name in scope.script:
+            return self.script(scope.script[name], values, scope)
+        if function is not None:
+            return self.call(function, values, scope)
+        if name in BUILTINS:
+            return [BUILTINS[name](values, scope.rules, self.table.kinds)]
+        if name in NOTHING:
+            return []
+        if name in self.table.kinds.enumerations:
+            kind = self.table.kinds.kind(f"Enum: {name}")
+            return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
+        raise NotLowered(f"{name} is no datum, event or function that is known here")
+
+    def is_unset(self, name: str, scope: Scope) -> Expr:
+        """Whether nothing was assigned to a persistent variable so far."""
+        flag = self.persistent.get(f"{scope.keeper}.{name}?")
+        if flag is None:
+            return TRUE
+        return single_of(self._now(flag)).expr
+
+    # --- elements ------------------------------------------------------------------------------------------
+
+    def first_index(self, whole: Expression, scope: Scope) -> int:
+        """The number of the first element of an array of C."""
+        datum = datum_in(scope.node, whole.name) if isinstance(whole, Name) else None
+        return int(datum.first_index or 0) if datum is not None else 0
+
+    def _element(self, value: Symbolic, at: Expr, first: int) -> SymbolicScalar:
+        every = flat(value)
+        self.check_index(at, first, len(every))
+        return _one_of(every, at, first)
+
+    def check_index(self, at: Expr, first: int, count: int) -> None:
+        """Note the steps in which an index has no element."""
+        inside = folded(folded(at >= first) & folded(at <= first + count - 1))
+        if isinstance(at, Const):
+            whole = at.value * at.sort.resolution  # type: ignore[union-attr]
+            if whole.denominator != 1 or not first <= whole < first + count:
+                raise NotLowered(f"the index {whole} of {count} values")
+            return
+        from rovercheck.checker.drawn.lower.symbols import least_and_greatest
+
+        low, high = least_and_greatest(at)
+        if low < first or high > first + count - 1:
+            self.writer.choose(inside, lambda: None, lambda: self.writer.fault(f"an index, `{at}`, may name no element of {count}"))
+
+    def _indexed(self, value: Symbolic, indices: Sequence[Expression], scope: Scope) -> Symbolic:
+        rows, columns = size_of(value)
+        every = flat(value)
+        if len(indices) == 1:
+            by_column = [every[(at % rows) * columns + at // rows] for at in range(rows * columns)]
+            chosen_ = self.index(indices[0], rows * columns, scope)
+            made = [self._at(by_column, one) for one in chosen_]
+            return matrix(made, *((1, len(made)) if rows == 1 else (len(made), 1)), every[0].kind)
+        down, across = (
+            self.index(index, most, scope) for index, most in zip(indices, (rows, columns), strict=True)
+        )
+        made = []
+        for r in down:
+            for c in across:
+                row = [self._at([every[at * columns + other] for at in range(rows)], r) for other in range(columns)]
+                made.append(self._at(row, c))
+        return matrix(made, len(down), len(across), every[0].kind)
+
+    def _at(self, values: Sequence[SymbolicScalar], index: Expr) -> SymbolicScalar:
+        self.check_index(index, 1, len(values))
+        return _one_of(values, index, 1)
+
+    def index(self, index: Expression, most: int, scope: Scope) -> list[Expr]:
+        """The numbers, from 1, that an index means of so many elements."""
+        if isinstance(index, WholeRange):
+            return [number("double", at).expr for at in range(1, most + 1)]
+        given = flat(self.value(index, replace(scope, last=most)))
+        if given and all(one.kind == LOGICAL for one in given):
+            if any(one.constant is None for one in given):
+                raise NotLowered("elements that conditions choose: choose them one by one")
+            return [number("double", at + 1).expr for at, one in enumerate(given) if one.constant]
+        return [as_number(one) for one in given]
+
+    def _matrix(self, rows: Sequence[Sequence[Symbolic]], scope: Scope) -> Symbolic:
+        every = [[one for value in row for one in flat(value)] for row in rows]
+        width = max(map(len, every), default=0)
+        if any(len(row) != width for row in every):
+            raise NotLowered("the rows of a matrix are not as long as each other")
+        kinds = [one.kind for row in every for one in row]
+        kind = next((k for k in kinds if k not in ("double", LOGICAL, UNTYPED)), kinds[0] if kinds else "double")
+        made = SymbolicArray(kind, len(every), width, tuple(one for row in every for one in row))
+        if not kinds:
+            return made
+        found = each_converted(made, kind, scope.rules, self.table.kinds)
+        return matrix(flat(found), len(every), width)
+
+    def _range(self, one: ColonRange, scope: Scope) -> Symbolic:
+        ends = [self.value(end, scope) for end in (one.start, one.stop)]
+        step = number("double", 1) if one.step is None else single_of(self.value(one.step, scope))
+        start, stop = (single_of(end) for end in ends)
+        if start.constant is None or stop.constant is None or not step.constant:
+            raise NotLowered("a range whose ends are no constants")
+        count = (stop.constant - start.constant) / step.constant
+        if count >= MOST_ELEMENTS:
+            raise NotLowered(f"a range of more than {MOST_ELEMENTS:,} numbers")
+        kind = next((k.kind for k in (start, step, stop) if k.kind not in REALS), "double")
+        values = [
+            number(kind, start.constant + step.constant * at) for at in range(int(count) + 1 if count >= 0 else 0)
+        ]
+        return matrix(values, 1, len(values), kind) if len(values) != 1 else values[0]
+
+
+def _one_of(values: Sequence[SymbolicScalar], at: Expr, first: int) -> SymbolicScalar:
+    """The element that an index names; the last one where it names none."""
+    if isinstance(at, Const):
+        return values[int(at.value * at.sort.resolution) - first]  # type: ignore[union-attr]
+    made = values[-1].expr
+    for number_, one in reversed(list(enumerate(values[:-1]))):
+        made = chosen(folded(at == first + number_), one.expr, made)
+    return SymbolicScalar(values[0].kind, made)
+
+
+__all__ = ["ExpressionWriter", "IntegerRules"]

@@ -1,0 +1,95 @@
+"""What names mean in the texts of a chart: data, functions, events and states, from the inside to the outside."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from rovercheck.checker.drawn.grammar.functions import ScriptFunction
+from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
+from rovercheck.checker.drawn.lower.arithmetic import IntegerRules
+from rovercheck.checker.drawn.lower.symbols import NotLowered
+from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
+from rovercheck.checker.drawn.records import DrawnData
+from rovercheck.spec_model.lang.expr import Var
+
+
+@dataclass
+class Scope:
+    """Where a text stands: its state, and the function if it is in one.
+
+    ``left`` is raised once what the text still does is dropped, as its state was left, ``returned``,
+    ``broken`` and ``continued`` once a function or a loop ends.  ``last`` is the meaning of ``end``.
+    """
+
+    node: StateNode
+    rules: IntegerRules
+    event: str = ""
+    function: str = ""
+    script: dict[str, ScriptFunction] = field(default_factory=dict)
+    kept: set[str] = field(default_factory=set)
+    keeper: str = ""
+    calls: tuple[str, ...] = ()
+    left: Var | None = None
+    alive: object = None
+    returned: Var | None = None
+    broken: Var | None = None
+    continued: Var | None = None
+    last: int = 0
+
+
+def datum_in(node: StateNode, name: str) -> DrawnData | None:
+    """The datum of the nearest state around that has one of this name."""
+    for one in node.lineage():
+        if name in one.data:
+            return one.data[name]
+    return None
+
+
+def function_in(node: StateNode, name: str) -> FunctionNode | None:
+    """The function of the nearest state around that has one of this name."""
+    for one in node.lineage():
+        if name in one.functions:
+            return one.functions[name]
+    return None
+
+
+def words(expression: Expression) -> list[str]:
+    """The names of a path, ``A.B``.  Raises ``NotLowered``."""
+    match expression:
+        case Name(name):
+            return [name]
+        case Member(owner, name):
+            return [*words(owner), name]
+    raise NotLowered("it is no name of a state or an event")
+
+
+def state_in(node: StateNode, path: Sequence[str]) -> StateNode:
+    """The state that a path means in a state: the nearest, looking outward; else the only one so named."""
+    around = list(node.lineage())
+    for one in around:
+        start = [one] if one.parent is not None and one.name == path[0] else []
+        start += [child for child in one.children if child.name == path[0]]
+        for first in start:
+            found = _down(first, path[1:])
+            if found is not None:
+                return found
+    every = [one for one in around[-1].every() if _names_end(one, path)]
+    if len(every) != 1:
+        raise NotLowered(f"{'.'.join(path)} is {'several states' if every else 'no state'} of the chart")
+    return every[0]
+
+
+def _down(node: StateNode, path: Sequence[str]) -> StateNode | None:
+    for name in path:
+        below = [child for child in node.children if child.name == name]
+        if not below:
+            return None
+        node = below[0]
+    return node
+
+
+def _names_end(node: StateNode, path: Sequence[str]) -> bool:
+    names = [one.name for one in node.lineage()]
+    return names[: len(path)] == list(path)[::-1]
+
+
+__all__ = ["Scope", "datum_in", "function_in", "state_in", "words"]

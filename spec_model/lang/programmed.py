@@ -1,0 +1,121 @@
+"""Charts whose step is a program already: what an imported chart shows, and what it does.
+
+Stateflow has constructs that the charts written here do not: inner transitions, history, events that are sent to
+a whole chart, functions with memory.  A chart that is read from a file is lowered as a whole where it is
+read; its states are those that a person sees.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
+from rovercheck.spec_model.lang.chart import Chart, Path, State
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import Program
+from rovercheck.spec_model.lang.transition import Transition
+
+if TYPE_CHECKING:
+    from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
+
+
+@dataclass(frozen=True)
+class StepProgram:
+    """What a chart does in a step.
+
+    ``temporaries`` are written before they are read in every step.  ``fired`` says which path was taken where
+    its marker, a variable that nothing reads, is assigned.
+    """
+
+    statements: Program
+    temporaries: tuple[Var, ...] = ()
+    fired: "Mapping[str, FiredTransition]" = field(default_factory=dict)
+
+    @cached_property
+    def unmarked(self) -> Program:
+        """The statements without the markers of what fired."""
+        return without(self.statements, self.fired)
+
+
+class ProgrammedChart(Chart):
+    """A chart with the program of its step.  Its labels are texts, as the file has them."""
+
+    def __init__(
+        self,
+        name: str,
+        states: Sequence[State],
+        program: StepProgram,
+        *,
+        default: Sequence[Transition] = (),
+        junctions: Sequence[object] = (),
+        parallel: bool = False,
+        text: str = "",
+        place: Place | None = None,
+    ) -> None:
+        self.name, self.text, self.local_to, self.data, self.label_faults = name, text, (), (), ()
+        self.root = State(
+            name, states=states, junctions=junctions, default=default, parallel=parallel, place=place  # type: ignore[arg-type]
+        )  # fmt: skip
+        self.program = program
+
+    _written = (*Chart._written, "program")
+
+    def with_root(self, root: State) -> Chart:
+        """Raises ``ModelError``: what such a chart does is not said by its states."""
+        raise ModelError(f"{self.name} was imported, and is changed in its file.")
+
+    def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> Chart:
+        """Raises ``ModelError``: the same."""
+        raise ModelError(f"{self.name} was imported, and is changed in its file.")
+
+    @cached_property
+    def _own(self) -> frozenset[str]:
+        """The names of its temporaries, its markers and its active states."""
+        places = {place.name for place in (*self.locations, self.entered)}
+        return frozenset({v.name for v in self.program.temporaries} | places | self.program.fired.keys())
+
+    @cached_property
+    def written(self) -> dict[str, Var]:
+        """Data that its step writes, by name; active states and temporaries not included."""
+        found = writes(self.program.statements)
+        return {name: var for name, var in found.items() if name not in self._own}
+
+    @cached_property
+    def read(self) -> dict[str, Var]:
+        """Data that its step reads, by name."""
+        return {name: var for name, var in reads(self.program.statements).items() if name not in self._own}
+
+    @cached_property
+    def all_actions(self) -> tuple[Action, ...]:
+        """The statements of its step."""
+        return self.program.unmarked
+
+    @property
+    def guards(self) -> list[Expr]:
+        return []
+
+    def active_path(self, path: Path) -> Expr:
+        """The condition that the state at ``path`` is active; for the chart itself, that it was entered."""
+        return super().active_path(path) if path else self.entered == "yes"
+
+
+def without(statements: Program, names: Collection[str]) -> Program:
+    """The statements without assignments to some variables."""
+    made: list[Assign | If] = []
+    for one in statements:
+        if isinstance(one, If):
+            then, otherwise = (
+                without(tuple(a for a in part if isinstance(a, Assign | If)), names)
+                for part in (one.then, one.otherwise)
+            )
+            if then or otherwise:
+                made.append(If(one.condition, then, otherwise))
+        elif one.var.name not in names:
+            made.append(one)
+    return tuple(made)
+
+
+__all__ = ["ProgrammedChart", "StepProgram", "without"]
