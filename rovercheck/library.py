@@ -25,6 +25,7 @@ from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.extras import CERTIFICATES
 from rovercheck.checker.model import Model
 from rovercheck.checker.model import load as files
+from rovercheck.checker.model.drawn import SimulinkModel, simulink_model
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import model
 from rovercheck.checker.model.rover import rover
@@ -269,11 +270,13 @@ __all__ = [
     "Model",
     "NoTrace",
     "Results",
+    "SimulinkModel",
     "View",
     "check",
     "load",
     "model",
     "picture",
+    "simulink_model",
     "rover",
     "trace",
 ]

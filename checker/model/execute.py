@@ -10,6 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 from rovercheck.checker.model import shown
+from rovercheck.checker.model.drawn import SUFFIX
 from rovercheck.checker.model.neighbours import Neighbours
 from rovercheck.checker.model.statements import statement_faults
 from rovercheck.spec_model.lang.chart import Chart
@@ -37,6 +38,8 @@ def files_of(path: Path) -> list[Path]:
         return inside
     if not path.exists():
         raise ModelError(f"There is no {shown(path)}; a model is a .py file or a folder of them.")
+    if path.suffix == SUFFIX:
+        return _properties_of(path)
     if path.suffix != ".py":
         raise ModelError(f"{shown(path)} is no Python file; a model is a .py file or a folder of them.")
     if "." in path.stem:
@@ -44,9 +47,18 @@ def files_of(path: Path) -> list[Path]:
     return [path]
 
 
-def modules_of(files: Sequence[Path]) -> tuple[Neighbours, list[tuple[Path, ModuleType]], list[str]]:
+def _properties_of(path: Path) -> list[Path]:
+    """The files with the properties of a model of Simulink, ``NAME_properties``: a file, a folder, or none."""
+    beside = path.with_name(f"{path.stem}_properties")
+    if beside.is_dir():
+        return files_of(beside)
+    file = beside.with_suffix(".py")
+    return files_of(file) if file.exists() else []
+
+
+def modules_of(files: Sequence[Path], folder: Path) -> tuple[Neighbours, list[tuple[Path, ModuleType]], list[str]]:
     """The files of one folder that run, with their modules; and what is wrong with the others, with lines."""
-    neighbours = Neighbours(files[0].parent)
+    neighbours = Neighbours(folder)
     modules, faults = list[tuple[Path, ModuleType]](), list[str]()
     with neighbours.importing():
         for file in files:

@@ -14,6 +14,7 @@ from rovercheck.checker.model.checks import (
     property_faults,
     system_faults,
 )
+from rovercheck.checker.model.drawn import SUFFIX, SimulinkModel, read_simulink
 from rovercheck.checker.model.execute import files_of, modules_of
 from rovercheck.checker.model.kinds import kind_faults
 from rovercheck.checker.model.records import REGISTER, hazards_of, recorded, register
@@ -35,14 +36,15 @@ def load(path: Path) -> Model:
     ``REQUIREMENTS``, hazards from ``hazards.toml``.  Raises ``ModelError`` for what has no meaning, with a
     line for each fault; only a thing that is faulty already, or what it is about, is not looked at further.
     """
+    drawn = [read_simulink(path)] if path.suffix == SUFFIX and path.exists() else []
     files = files_of(path)
-    neighbours, modules, faults = modules_of(files)
-    found = _Found([(file, vars(module).values()) for file, module in modules], faults)
+    folder = files[0].parent if files else path.parent
+    neighbours, modules, faults = modules_of(files, folder)
+    found = _Found([*((path, [one]) for one in drawn), *((file, vars(module).values()) for file, module in modules)], faults)
     found.take_all()
     on_record, requirements, hazards = {}, dict[str, Requirement](), dict[str, Hazard]()
     beside = list[str]()
     if found.whole:
-        folder = files[0].parent
         with _gathered(beside):
             file = folder / f"{REGISTER.lower()}.toml"
             requirements, wrong = register(modules, file, found.properties.values())
@@ -189,6 +191,8 @@ def _things(values: Iterable[object]) -> Iterator[object]:
     todo, seen = list(values)[::-1], set[int]()
     while todo:
         value = todo.pop()
+        if isinstance(value, SimulinkModel):
+            value = value.system
         if not isinstance(value, tuple | list):
             yield value
         elif id(value) not in seen:

@@ -8,18 +8,15 @@ read; its states are those that a person sees.
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
 from rovercheck.spec_model.lang.chart import Chart, Path, State
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.system import Program
 from rovercheck.spec_model.lang.transition import Transition
-
-if TYPE_CHECKING:
-    from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
 
 
 @dataclass(frozen=True)
@@ -32,7 +29,7 @@ class StepProgram:
 
     statements: Program
     temporaries: tuple[Var, ...] = ()
-    fired: "Mapping[str, FiredTransition]" = field(default_factory=dict)
+    fired: Mapping[str, FiredTransition] = field(default_factory=dict)
 
     @cached_property
     def unmarked(self) -> Program:

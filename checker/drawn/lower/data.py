@@ -70,6 +70,8 @@ class DataTable:
     """Of each chart the data whose changes it sees, by name, with their SSIDs."""
     starting: dict[str, int] = field(default_factory=dict)
     """Raw values that variables have when the first step begins, where initialization changes them."""
+    declared_names: set[str] = field(default_factory=set)
+    """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
 
@@ -81,6 +83,7 @@ class DataTable:
     def _variable(self, name: str, first: SymbolicScalar, hidden: bool, doc: str) -> SymbolicScalar:
         if not isinstance(first.expr, Const):
             raise NotLowered(f"{name} begins as `{first.expr}`, which is no constant")
+        self.declared_names.add(name)
         domain = self.given.get(name) or self.kinds.domain(first.kind)
         if domain is None:
             value = first.constant

@@ -63,6 +63,8 @@ class LoweredModel:
     data: Mapping[str, Expr]
     views: Mapping[str, ChartView]
     notes: Sequence[str] = ()
+    taken: frozenset[str] = frozenset()
+    """The names of all data that a domain may be given to, beside inputs."""
 
 
 def lowered_model(
@@ -151,7 +153,8 @@ class _Attempt:
             text=f"The model {self.model.name}, read from {self._file}.",
             notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
         )  # fmt: skip
-        return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes)
+        taken = frozenset(self.table.declared_names)
+        return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes, taken)
 
     # --- ports ---------------------------------------------------------------------------------------------
 

@@ -203,16 +203,16 @@ class ChartWriter(StatementWriter):
 
     def step(self, occurs: Sequence[tuple[str, Expr]] | None) -> None:
         """One step; with input events one execution for each that occurs."""
-        self._begin()
+        self._begin_step()
         for event, condition in [("", TRUE)] if occurs is None else occurs:
             self.writer.choose(condition, lambda event=event: self._once(event))
-        self._end()
+        self._end_step()
 
     def initialize(self) -> None:
         """What happens before the first step, if it is so drawn."""
         self.writer.choose(folded(~self._has_begun), self._first)
 
-    def _begin(self) -> None:
+    def _begin_step(self) -> None:
         for node in self.chart.root.every():
             self.times.begin(node, self.active(node))
         if self.chart.drawn.initializes_outputs:
@@ -237,7 +237,7 @@ class ChartWriter(StatementWriter):
         one = single_of(self.cells[ssid])
         return SymbolicScalar(one.kind, self.writer.read(one.expr)) if isinstance(one.expr, Var) else one
 
-    def _end(self) -> None:
+    def _end_step(self) -> None:
         for one in self.chart.root.data.values():
             if one.activity_of is not None and one.activity_of in self.chart.states:
                 active = self.active(self.chart.states[one.activity_of])

@@ -8,7 +8,7 @@ from rovercheck.checker.drawn.refused import label_of
 from rovercheck.spec_model.lang.chart import Path, State
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
+from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
 from rovercheck.spec_model.lang.stateflow.message import LabelText

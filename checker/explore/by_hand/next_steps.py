@@ -21,7 +21,7 @@ from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Var
-from rovercheck.spec_model.lang.interpret.fired_transition import path_label
+from rovercheck.spec_model.lang.fired_transition import path_label
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import System, TransitionSystem

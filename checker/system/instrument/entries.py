@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from rovercheck.spec_model.lang.chart import Chart, Path, Transition
-from rovercheck.spec_model.lang.interpret.fired_transition import path_label
+from rovercheck.spec_model.lang.fired_transition import path_label
 from rovercheck.spec_model.lang.wellformed.places import common_composite
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
+from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.interpret.run import Admits, Values, store
 from rovercheck.spec_model.lang.programmed import ProgrammedChart
 

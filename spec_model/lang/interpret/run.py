@@ -9,7 +9,7 @@ from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State, Transi
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
-from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition, path_label
+from rovercheck.spec_model.lang.fired_transition import FiredTransition, path_label
 from rovercheck.spec_model.lang.interpret.words import InterpretedWords
 
 Values = MutableMapping[str, int]

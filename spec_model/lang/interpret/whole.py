@@ -8,7 +8,7 @@ from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
+from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.interpret.program import ProgramRun
 from rovercheck.spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
 from rovercheck.spec_model.lang.programmed import ProgrammedChart
