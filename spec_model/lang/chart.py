@@ -6,7 +6,7 @@ first; a transition ends on a state or on a junction, whose own transitions are 
 A ``Block`` is a function block: actions run once in every step, with no states.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -169,6 +169,11 @@ class Chart:
     def place(self) -> Place | None:
         """Where the chart is written."""
         return self.root.place
+
+    @property
+    def inner(self) -> Mapping[Path, Sequence[Transition]]:
+        """Transitions that are drawn inside the state that they leave, which only imported charts have."""
+        return {}
 
     @cached_property
     def states(self) -> dict[Path, State]:

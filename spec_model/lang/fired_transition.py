@@ -34,6 +34,8 @@ def path_label(segments: Sequence[Transition]) -> str:
 
 def segment_label(segment: Transition) -> str:
     """``event [guard] {condition action} / transition action``, each part optional (rule G6)."""
+    if segment.label is not None:  # an imported chart, whose labels are shown as they are
+        return segment.label.text
     parts = [segment.event or ""]
     parts += [f"[{text(segment.guard)}]"] if segment.guard is not None else []
     parts += [f"{{{_listed(segment.do)}}}"] if segment.do else []

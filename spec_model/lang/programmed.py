@@ -6,7 +6,7 @@ read; its states are those that a person sees.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
@@ -49,6 +49,7 @@ class ProgrammedChart(Chart):
         default: Sequence[Transition] = (),
         junctions: Sequence[object] = (),
         parallel: bool = False,
+        inner: Mapping[Path, Sequence[Transition]] | None = None,
         text: str = "",
         place: Place | None = None,
     ) -> None:
@@ -56,9 +57,14 @@ class ProgrammedChart(Chart):
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place  # type: ignore[arg-type]
         )  # fmt: skip
-        self.program = program
+        self.program, self._inner = program, inner or {}
 
-    _written = (*Chart._written, "program")
+    _written = (*Chart._written, "program", "_inner")
+
+    @property
+    def inner(self) -> Mapping[Path, Sequence[Transition]]:
+        """Transitions that are drawn inside the state that they leave."""
+        return self._inner
 
     def with_root(self, root: State) -> Chart:
         """Raises ``ModelError``: what such a chart does is not said by its states."""
@@ -67,6 +73,11 @@ class ProgrammedChart(Chart):
     def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> Chart:
         """Raises ``ModelError``: the same."""
         raise ModelError(f"{self.name} was imported, and is changed in its file.")
+
+    @cached_property
+    def entered(self) -> Var:
+        """True once the chart has had its first execution."""
+        return replace(super().entered, hidden=True)
 
     @cached_property
     def _own(self) -> frozenset[str]:

@@ -84,6 +84,10 @@ class ChartView:
             self.name_of_chart, [self._state(child) for child in root.children], program,
             default=[self._transition(one) for one in root.defaults if one.target is not None],
             junctions=self._junctions(root), parallel=root.parallel,
+            inner={
+                self.paths[node.ssid]: [self._transition(one) for one in node.inner if one.target is not None]
+                for node in root.every() if node.inner
+            },
             text=f"The chart {self.chart.drawn.path}.", place=self._place(0, 0),
         )  # fmt: skip
 

@@ -16,7 +16,8 @@ class ChartArrow:
     """One segment of an arrow between two states or junctions, known by their paths.
 
     ``order`` is its number among the ``siblings`` segments with the same start, from 1.  A default
-    transition starts at ``source``, the composite (or chart) whose default it is.
+    transition starts at ``source``, the composite (or chart) whose default it is.  The name of an inner
+    transition has ``^``.
     """
 
     name: str
@@ -42,14 +43,16 @@ def arrows(chart: Chart) -> tuple[ChartArrow, ...]:
     for path, state in chart.states.items():
         found += _from(chart, path, path, state.default, default=True)
         found += _from(chart, path, path[:-1], state.transitions)
+        found += _from(chart, path, path, chart.inner.get(path, ()), mark="^")
     for path, junction in chart.junctions.items():
         found += _from(chart, path, path[:-1], junction.transitions)
     return tuple(found)
 
 
 def _from(
-    chart: Chart, source: Path, level: Path, transitions: Sequence[Transition], default: bool = False
-) -> Iterable[ChartArrow]:
+    chart: Chart, source: Path, level: Path, transitions: Sequence[Transition], default: bool = False,
+    mark: str = "",
+) -> Iterable[ChartArrow]:  # fmt: skip
     for order, transition in enumerate(transitions, 1):
         target = chart.resolve(level, transition.target)
         if target is None:
@@ -58,12 +61,14 @@ def _from(
                 f"{chart.name}: transition {order} of {start} goes to {transition.target!r}, "
                 "which is unknown."
             )
-        name = f"{'.'.join(source)}{'*' if default else ''}#{order}"
+        name = f"{'.'.join(source)}{'*' if default else mark}#{order}"
         yield ChartArrow(name, source, target, order, len(transitions), default, transition)
 
 
 def label_parts(arrow: Transition) -> tuple[str, ...]:
     """The parts of a label that may stand on lines of their own: event, guard, actions."""
+    if arrow.label is not None:
+        return tuple(filter(None, (line.strip() for line in arrow.label.text.splitlines())))
     parts = [arrow.event or "", f"[{text(arrow.guard)}]" if arrow.guard is not None else ""]
     parts.append("{" + "; ".join(map(str, as_calls(arrow.do))) + "}" if arrow.do else "")
     parts.append("/ " + "; ".join(map(str, as_calls(arrow.then))) if arrow.then else "")
@@ -77,6 +82,8 @@ def label(arrow: Transition) -> str:
 
 def action_lines(state: State) -> tuple[str, ...]:
     """The actions listed in a state's box; conditionals spread over several lines."""
+    if state.label is not None:
+        return tuple(line.rstrip() for line in state.label.text.splitlines() if line.strip())
     lines: list[str] = []
     for word, actions in (("entry", state.entry), ("during", state.during), ("exit", state.exit)):
         if actions:
