@@ -24,11 +24,13 @@ class StepProgram:
     """What a chart does in a step.
 
     ``temporaries`` are written before they are read in every step.  ``fired`` says which path was taken where
-    its marker, a variable that nothing reads, is assigned.
+    its marker, a variable that nothing reads, is assigned.  ``starting`` are raw values that variables have
+    before the first step, of a chart that is entered when it is initialized.
     """
 
     statements: Program
     temporaries: tuple[Var, ...] = ()
+    starting: Mapping[str, int] = field(default_factory=dict)
     fired: Mapping[str, FiredTransition] = field(default_factory=dict)
 
     @cached_property
@@ -77,7 +79,14 @@ class ProgrammedChart(Chart):
     @cached_property
     def entered(self) -> Var:
         """True once the chart has had its first execution."""
-        return replace(super().entered, hidden=True)
+        own = super().entered
+        return replace(own, hidden=True, init=self.program.starting.get(own.name, own.init))
+
+    def location(self, path: Path = ()) -> Var:
+        """The variable that says which state of an exclusive composite is active."""
+        own = super().location(path)
+        init = self.program.starting.get(own.name, own.init)
+        return own if init == own.init else replace(own, init=init)
 
     @cached_property
     def _own(self) -> frozenset[str]:

@@ -3,7 +3,7 @@
 A real number has a range that no file holds: it is given, or else it is learned from all that is assigned.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -70,6 +70,8 @@ class DataTable:
     """Of each chart the data whose changes it sees, by name, with their SSIDs."""
     starting: dict[str, int] = field(default_factory=dict)
     """Raw values that variables have when the first step begins, where initialization changes them."""
+    at_rest: dict[str, int] = field(default_factory=dict)
+    """Raw values of data before that."""
     declared_names: set[str] = field(default_factory=set)
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
@@ -100,6 +102,7 @@ class DataTable:
             if found is None or found not in domain:
                 raise NotLowered(f"{name} begins as {first.expr}, which is outside its domain, {domain}")
             raw = found
+        self.at_rest[name] = raw
         return SymbolicScalar(first.kind, Var(name, domain, self.starting.get(name, raw), doc, hidden))
 
     def write(self, writer: ProgramWriter, target: SymbolicScalar, value: Expr) -> None:
@@ -143,7 +146,7 @@ class DataTable:
         self.notes = {}
 
     @property
-    def endless(self) -> Iterable[str]:
+    def endless(self) -> list[str]:
         """The data whose ranges became wider in this attempt, or that are too fine or wide for one."""
         return sorted(name for name in self.changed if name in self.ranges)
 

@@ -65,6 +65,8 @@ class LoweredModel:
     notes: Sequence[str] = ()
     taken: frozenset[str] = frozenset()
     """The names of all data that a domain may be given to, beside inputs."""
+    real: bool = False
+    """Whether it computes with real numbers, which are exact fractions here."""
 
 
 def lowered_model(
@@ -86,19 +88,26 @@ def lowered_model(
         _refuse_too_fine(table)
         if not table.changed:
             return found
-    names = ", ".join(list(table.endless)[:5]) or ", ".join(sorted(table.changed)[:5])
-    raise NotLowered(
-        f"the range of {names} does not follow from what is assigned: give it a domain in the file of domains"
-    )
+    if table.endless:
+        raise RangeNotKnown("the range of {} does not follow from what is assigned", table.endless)
+    raise NotLowered(f"{', '.join(sorted(table.changed)[:5])} is of another type in each attempt")
 
 
 def _refuse_too_fine(table: DataTable) -> None:
     fine = table.too_fine()
     if fine:
-        raise NotLowered(
-            f"{', '.join(fine[:5])}: computed with more and more digits, or without end. Give it a domain with "
-            "a resolution in the file of domains"
+        raise RangeNotKnown("{} is computed with more and more digits, or without end", fine)
+
+
+class RangeNotKnown(NotLowered):
+    """The values of some data do not follow from the file: a person must give their domains."""
+
+    def __init__(self, said: str, names: Sequence[str]) -> None:
+        shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+        super().__init__(
+            f"{said.format(shown)}. `rovercheck import MODEL.slx --propose-domains` writes a file to fill in"
         )
+        self.names = tuple(names)
 
 
 @dataclass
@@ -136,9 +145,7 @@ class _Attempt:
         root = {number_of(one): one for one in self.model.system.blocks if one.kind == "Inport"}
         given = [self._input(root[n], top) for n in sorted(root)]
         if self._missing:
-            raise NotLowered(
-                f"no domain is given for {', '.join(self._missing)}: see rovercheck import --propose-domains"
-            )
+            raise RangeNotKnown("no domain is given for {}", self._missing)
         components, ends = top.lowered(given)
         outputs = self._outputs(top, ends)
         last = [Assign(var, value) for var, value in self._written(outputs)]
@@ -154,7 +161,11 @@ class _Attempt:
             notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
         )  # fmt: skip
         taken = frozenset(self.table.declared_names)
-        return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes, taken)
+        return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes, taken, self._computes)
+
+    @property
+    def _computes(self) -> bool:
+        return bool(self.table.ranges) or bool(self.table.given.keys() - self.inputs.keys())
 
     # --- ports ---------------------------------------------------------------------------------------------
 
@@ -205,18 +216,17 @@ class _Attempt:
         every: dict[str, int] = {}
         for _, writer in self.starts:
             statements = writer.written()
-            variables = {one.name: one for one in _variables(statements)}
-            at = {name: every.get(name, one.init) for name, one in variables.items()}
-            kept = {name: one.init for name, one in variables.items()}
+            at = {one.name: self._at_rest(one) for one in _variables(statements)} | every
+            before = dict(at)
             run(statements, at)
-            for name, var in variables.items():
-                if name not in writer.temporaries and at[name] != kept[name]:
-                    every[name] = at[name]
-                    if var.name in self.inputs:
-                        continue
+            every |= {n: raw for n, raw in at.items() if n not in writer.temporaries and raw != before[n]}
         if every != self.table.starting:
             self.table.starting = every
             self.table.changed.add("initialization")
+
+    def _at_rest(self, var: Var) -> int:
+        """The value of a variable before initialization."""
+        return self.table.at_rest.get(var.name, 0 if var.name in self.table.starting else var.init)
 
     # --- what blocks need ----------------------------------------------------------------------------------
 
@@ -376,7 +386,7 @@ class _SystemLowering:
         name = attempt.name(chart.drawn)
         if chart.drawn.activity_output:
             raise NotLowered("the output of the active child: give it a datum that entry actions set")
-        view = ChartView(chart, name, attempt._file)
+        view = ChartView(chart, name, attempt._file, attempt.table.starting)
         writer = ProgramWriter(name)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
@@ -391,7 +401,9 @@ class _SystemLowering:
             events = self._events(node, chart, writer)
             made.step(events)
             statements = writer.written()
-            program = StepProgram(statements, tuple(writer.temporaries.values()), dict(view.fired))
+            program = StepProgram(
+                statements, tuple(writer.temporaries.values()), attempt.table.starting, dict(view.fired)
+            )
             component = view.made(program)
             attempt.views[name] = view
             if chart.drawn.at_initialization:
@@ -582,4 +594,4 @@ def _same(one: str, other: str) -> bool:
         return False
 
 
-__all__ = ["LoweredModel", "lowered_model", "FALSE", "INTEGERS", "LOGICAL", "is_member", "replace", "truth", "either", "Const"]
+__all__ = ["LoweredModel", "RangeNotKnown", "lowered_model", "FALSE", "INTEGERS", "LOGICAL", "is_member", "replace", "truth", "either", "Const"]

@@ -86,10 +86,15 @@ class ChartWriter(StatementWriter):
             if node.parallel and self.sends:
                 for region in node.children:
                     name = f"{writer.name}.{'.'.join(view.paths[region.ssid])}.active"
-                    self._regions[region.ssid] = Var(name, boolean, 0, "whether the region is active", True)
+                    self._regions[region.ssid] = Var(
+                        name, boolean, table.starting.get(name, 0), "whether the region is active", True
+                    )
             if node.history is not None and node.children and not node.parallel:
                 place = view.location(node)
-                self._last[node.ssid] = Var(f"{place.name}.last", place.domain, 0, "the child left last", True)
+                self._last[node.ssid] = Var(
+                    f"{place.name}.last", place.domain, table.starting.get(f"{place.name}.last", 0),
+                    "the child left last", True,
+                )  # fmt: skip
         self._declare_all()
 
     # --- data ----------------------------------------------------------------------------------------------

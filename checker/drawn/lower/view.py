@@ -1,7 +1,7 @@
 """A chart as a person sees it: its states, its transitions with their labels, and which of them are active."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from rovercheck.checker.drawn.parsed import JunctionNode, ParsedChart, StateNode, TransitionNode
 from rovercheck.checker.drawn.refused import label_of
@@ -20,12 +20,14 @@ _ODD = re.compile(r"\W+")
 class ChartView:
     """The names of what is in a chart: of its states, of the variables that say which is active."""
 
-    def __init__(self, chart: ParsedChart, name: str, file: str) -> None:
+    def __init__(
+        self, chart: ParsedChart, name: str, file: str, starting: Mapping[str, int] | None = None
+    ) -> None:
         self.chart, self.name_of_chart, self._file = chart, name, file
         self.paths: dict[int, Path] = {0: ()}
         self._names: dict[int, str] = {}
         self._name_all(chart.root, ())
-        self._chart = self.made(StepProgram(()))
+        self._chart = self.made(StepProgram((), starting=starting or {}))
         self.fired: dict[str, FiredTransition] = {}
         self.begun = self._chart.entered
 
