@@ -137,7 +137,9 @@ def lowered_simulink(path: Path, model: DrawnModel, said: DomainsFile) -> Simuli
     if unknown:
         name = min(unknown)
         known = [*lowered.inputs, *lowered.taken]
-        raise ModelError(f"{said.path}: {name} is no input and no datum of the model. {did_you_mean(name, known)}")
+        raise ModelError(
+            f"{said.path}: {name} is no input and no datum of the model. {did_you_mean(name, known)}"
+        )
     notes = [*lowered.system.notes, *_beside(path, lowered, said)]
     system = replace(lowered.system, place=Place(str(path), 1), notes=tuple(notes))
     return SimulinkModel(path, replace(lowered, system=system))

@@ -100,7 +100,9 @@ def _one_run(
             faults.append(f"the system says: {error}")
         if len(faults) == 2:
             return None, tick
-        wrong = {n: (direct[n], other[n]) for n in direct.keys() & other.keys() if not _alike(direct[n], other[n])}
+        wrong = {
+            n: (direct[n], other[n]) for n in direct.keys() & other.keys() if not _alike(direct[n], other[n])
+        }
         if wrong or faults:
             said = "; ".join(faults)
             return ReadingDifference(tick, wrong, tuple(run), tuple(runner.fired), said), tick

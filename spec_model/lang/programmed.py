@@ -13,6 +13,7 @@ from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
 from rovercheck.spec_model.lang.chart import Chart, Path, State
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.figure import ChartFigure
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.system import Program
@@ -52,6 +53,7 @@ class ProgrammedChart(Chart):
         junctions: Sequence[object] = (),
         parallel: bool = False,
         inner: Mapping[Path, Sequence[Transition]] | None = None,
+        figure: ChartFigure | None = None,
         text: str = "",
         place: Place | None = None,
     ) -> None:
@@ -59,9 +61,14 @@ class ProgrammedChart(Chart):
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place  # type: ignore[arg-type]
         )  # fmt: skip
-        self.program, self._inner = program, inner or {}
+        self.program, self._inner, self._figure = program, inner or {}, figure
 
-    _written = (*Chart._written, "program", "_inner")
+    _written = (*Chart._written, "program", "_inner", "_figure")
+
+    @property
+    def figure(self) -> ChartFigure | None:
+        """Where things stand in its drawing."""
+        return self._figure
 
     @property
     def inner(self) -> Mapping[Path, Sequence[Transition]]:

@@ -121,7 +121,11 @@ class DataTable:
             if self.ranges[var.name].widened(low, high, value.sort.resolution):
                 self.changed.add(var.name)
         own, new = value.sort.resolution, var.sort.resolution
-        if (own / new).denominator == 1 or isinstance(value, Const) and (value.value * own / new).denominator == 1:
+        if (
+            (own / new).denominator == 1
+            or isinstance(value, Const)
+            and (value.value * own / new).denominator == 1
+        ):
             return rescale(value, Num(new))
         if var.name not in self.ranges:
             self.notes.setdefault(

@@ -34,7 +34,14 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.view import ChartView, plain_name
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode, parsed_chart
-from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnContent, DrawnData, DrawnModel, DrawnSystem
+from rovercheck.checker.drawn.records import (
+    DrawnBlock,
+    DrawnChart,
+    DrawnContent,
+    DrawnData,
+    DrawnModel,
+    DrawnSystem,
+)
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, Port, Wiring, number_of, wired
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
@@ -77,14 +84,23 @@ def lowered_model(
     ``domains`` are those of inputs and data, by name.  Raises ``NotLowered`` for what has no formula, with
     its place, and for a datum whose range is not given.
     """
+    try:
+        return _lowered(model, file, domains or {}, step)
+    except RecursionError:
+        raise NotLowered("states, blocks or expressions are nested too deeply") from None
+
+
+def _lowered(model: DrawnModel, file: str, domains: Mapping[str, Domain], step: str) -> LoweredModel:
     charts = {one.path: parsed_chart(one) for one in model.charts}
     for parsed in charts.values():
         if parsed.notes:
             raise NotLowered(str(parsed.notes[0]))
-    table = DataTable(KindTable.of(model), domains or {})
+    table = DataTable(KindTable.of(model), domains)
     for attempt in range(ATTEMPTS):
         table.begin()
-        found = _Attempt(model, file, table, charts, step or model.step, final=attempt == ATTEMPTS - 1).lowered()
+        found = _Attempt(
+            model, file, table, charts, step or model.step, final=attempt == ATTEMPTS - 1
+        ).lowered()
         _refuse_too_fine(table)
         if not table.changed:
             return found
@@ -152,7 +168,9 @@ class _Attempt:
         if last:
             components = (*components, Block("Outports", last, text="The outputs of the model."))
         self._initialize()
-        shown = {name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()}
+        shown = {
+            name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()
+        }
         notes = tuple(self.table.notes.values())
         step_ms, said = _milliseconds(self.step)
         system = in_order(
@@ -161,7 +179,9 @@ class _Attempt:
             notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
         )  # fmt: skip
         taken = frozenset(self.table.declared_names)
-        return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes, taken, self._computes)
+        return LoweredModel(
+            self.model, system, self.inputs, shown, self.data, self.views, notes, taken, self._computes
+        )
 
     @property
     def _computes(self) -> bool:
@@ -239,7 +259,12 @@ class _Attempt:
         except GrammarError as error:
             raise NotLowered(f"the parameter {text!r}: {error}") from error
         bare = ParsedChart(
-            DrawnChart("", "chart", "MATLAB", _NOTHING, ""), ActionLanguage.MATLAB, StateNode(0, "", "", None), {}, {}, ()
+            DrawnChart("", "chart", "MATLAB", _NOTHING, ""),
+            ActionLanguage.MATLAB,
+            StateNode(0, "", "", None),
+            {},
+            {},
+            (),
         )
         writer = ProgramWriter("parameter")
         view = ChartView(bare, "parameter", self._file)
@@ -324,7 +349,9 @@ class _SystemLowering:
                 components += self._component(node, given)
             except NotLowered as error:
                 where = " ".join(node.block.path.split())
-                raise NotLowered(str(error) if str(error).startswith(where) else f"{where}: {error}") from error
+                raise NotLowered(
+                    str(error) if str(error).startswith(where) else f"{where}: {error}"
+                ) from error
         components += self._delays()
         return tuple(components), [self._values(node)[0] for node in self.ends]
 
@@ -361,7 +388,11 @@ class _SystemLowering:
 
     def _value(self, port: Port) -> Symbolic:
         node = self._by_id[port[0]]
-        return node.memory if node.memory is not None else node.outputs[port[1] - 1]
+        if node.memory is not None:
+            return node.memory
+        if not 0 < port[1] <= len(node.outputs):
+            raise NotLowered(f"output {port[1]} of {node.block.path} is not there")
+        return node.outputs[port[1] - 1]
 
     def _component(self, node: _BlockNode, given: Sequence[Symbolic]) -> list[Component]:
         block = node.block
@@ -439,7 +470,10 @@ class _SystemLowering:
             kind = kinds.kind(one.type)
             plain = kind and not kind.startswith("Bus: ")
             fitted = each_converted(value, kind, made.rules, kinds) if plain else value
-            scalars = [made.writer.kept(one.name, s) if not isinstance(s.expr, Var) else s for _, s in leaves(fitted, "")]
+            scalars = [
+                made.writer.kept(one.name, s) if not isinstance(s.expr, Var) else s
+                for _, s in leaves(fitted, "")
+            ]
             made.cells[one.ssid] = filled(fitted, iter(scalars))
         for one in data:
             if one.scope == "input" and one.ssid not in made.cells:
@@ -457,7 +491,9 @@ class _SystemLowering:
         every = self._input_events(chart)
         if not every:
             return None
-        return list(zip((name for name, _ in every), self._edge_conditions(node, [t for _, t in every]), strict=False))
+        return list(
+            zip((name for name, _ in every), self._edge_conditions(node, [t for _, t in every]), strict=False)
+        )
 
     def _any_event(self, node: _BlockNode, chart: ParsedChart) -> Expr:
         every = self._input_events(chart)
@@ -471,16 +507,22 @@ class _SystemLowering:
         name = self._named(node.block)
         made = []
         for n, _ in enumerate(self._control(node)):
-            made.append(tuple(
-                Var(f"{name}.trigger{n + 1}.{what}", boolean, 0, f"the trigger of {node.block.path}", True)
-                for what in ("above", "below", "seen")
-            ))
+            made.append(
+                tuple(
+                    Var(
+                        f"{name}.trigger{n + 1}.{what}", boolean, 0, f"the trigger of {node.block.path}", True
+                    )
+                    for what in ("above", "below", "seen")
+                )
+            )
         return made  # type: ignore[return-value]
 
     def _edge_conditions(self, node: _BlockNode, kinds: Sequence[str]) -> list[Expr]:
         """Whether each signal of a trigger rises or falls through 0; in its first step it does neither."""
         found = []
-        for kind, now, (above, below, seen) in zip(kinds, self._control(node), self._before(node), strict=False):
+        for kind, now, (above, below, seen) in zip(
+            kinds, self._control(node), self._before(node), strict=False
+        ):
             if kind in ("function call", "function-call"):
                 raise NotLowered("an event that is a function call: give the chart a rising edge")
             rises = folded(all_of(seen, ~above, folded(now > 0)))
@@ -521,11 +563,15 @@ class _SystemLowering:
         node.outputs = outputs
         return [Enabled(by, *components, *held, name=plain_name(block.name)), *after]
 
-    def _held(self, inner: "_SystemLowering", ends: Sequence[Symbolic]) -> tuple[list[Component], list[Symbolic]]:
+    def _held(
+        self, inner: "_SystemLowering", ends: Sequence[Symbolic]
+    ) -> tuple[list[Component], list[Symbolic]]:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.attempt.table, list[Symbolic](), list[Component]()
         for end, value in zip(inner.ends, ends, strict=True):
-            if all(isinstance(one.expr, Var) and not self._is_input(one.expr) for _, one in leaves(value, "")):
+            if all(
+                isinstance(one.expr, Var) and not self._is_input(one.expr) for _, one in leaves(value, "")
+            ):
                 outputs.append(value)
                 continue
             name = inner._named(end.block)
@@ -580,7 +626,9 @@ def _milliseconds(step: str) -> tuple[int, list[Note]]:
     try:
         exact = Fraction(step.strip()) * 1000
     except (ValueError, ZeroDivisionError):
-        return 1, [Note("The length of a step is not in the file; times are told in steps of 1 ms.", brief="")]
+        return 1, [
+            Note("The length of a step is not in the file; times are told in steps of 1 ms.", brief="")
+        ]
     if exact.denominator == 1 and exact >= 1:
         return int(exact), []
     said = f"A step lasts {float(exact):g} ms; times are told as if it were whole milliseconds."
@@ -594,4 +642,16 @@ def _same(one: str, other: str) -> bool:
         return False
 
 
-__all__ = ["LoweredModel", "RangeNotKnown", "lowered_model", "FALSE", "INTEGERS", "LOGICAL", "is_member", "replace", "truth", "either", "Const"]
+__all__ = [
+    "LoweredModel",
+    "RangeNotKnown",
+    "lowered_model",
+    "FALSE",
+    "INTEGERS",
+    "LOGICAL",
+    "is_member",
+    "replace",
+    "truth",
+    "either",
+    "Const",
+]

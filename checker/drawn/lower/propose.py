@@ -57,7 +57,11 @@ def _proposed(name: str, constants: set[Fraction], otherwise: bool, is_input: bo
     room = max(constants) - min(constants) or abs(max(constants)) or 1
     low, high = min(Fraction(0), min(constants) - room), max(constants) + room
     ends = (low // step) * step, -(-high // step) * step
-    said = f"compared with {told}, and computed with" if is_input else f"assigned in the model, compared with {told}"
+    said = (
+        f"compared with {told}, and computed with"
+        if is_input
+        else f"assigned in the model, compared with {told}"
+    )
     return ProposedDomain(name, fixed(*ends, step), said, False)
 
 

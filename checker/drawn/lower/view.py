@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 
+from rovercheck.checker.drawn.lower.drawing import figure_of
 from rovercheck.checker.drawn.parsed import JunctionNode, ParsedChart, StateNode, TransitionNode
 from rovercheck.checker.drawn.refused import label_of
 from rovercheck.spec_model.lang.chart import Path, State
@@ -90,6 +91,7 @@ class ChartView:
                 self.paths[node.ssid]: [self._transition(one) for one in node.inner if one.target is not None]
                 for node in root.every() if node.inner
             },
+            figure=figure_of(self.chart, self.paths, _junction),
             text=f"The chart {self.chart.drawn.path}.", place=self._place(0, 0),
         )  # fmt: skip
 
