@@ -45,7 +45,10 @@ class ModelRunner:
         self._top = _System(model.system, self)
         root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
         self._inports = [root[number] for number in sorted(root)]
-        ends = {number_of(one): one for one in model.system.blocks if one.kind == "Outport"}
+        every = [one for one in model.system.blocks if one.kind == "Outport"]
+        ends = {number_of(one): one for one in every}
+        if len(ends) < len(every):
+            raise ChartFault("two Outports have one number: give each its own")
         self._outports = [ends[number] for number in sorted(ends)]
         self._top.initialize()
 
