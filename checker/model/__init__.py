@@ -61,6 +61,8 @@ class Model:
         """The properties, of which there is one at least.  Raises ``ModelError`` if there is none."""
         if not self.properties:
             forms = "Write one with a form of rovercheck, such as always(...)"
+            if self.path is not None and self.path.suffix == ".slx":
+                forms += f", in {self.path.stem}_properties.py beside it (docs/simulink.md)"
             raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
         return self.properties
 

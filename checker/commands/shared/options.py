@@ -225,7 +225,7 @@ class ModelPath(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         if value == "":
-            self.fail("the path is empty; write a Python file, or a folder of them.", param, ctx)
+            self.fail("the path is empty; write a Python file, a folder of them, or a model of Simulink.", param, ctx)
         return super().convert(value, param, ctx)
 
 
@@ -235,7 +235,8 @@ def modelling(command: Callable[..., Exit]) -> Callable[..., Exit]:
         "--model",
         type=ModelPath(path_type=Path),
         metavar="PATH",
-        help="Your own model instead of the rover: a Python file, or a folder of them.",
+        help="Your own model instead of the rover: a Python file, a folder of them, or a model of Simulink "
+        "(.slx).",
     )(command)
 
 
