@@ -68,8 +68,6 @@ class DataTable:
     """Counters of states, by the state's path and what is counted, with the steps up to which it matters."""
     watched: dict[str, dict[str, int]] = field(default_factory=dict)
     """Of each chart the data whose changes it sees, by name, with their SSIDs."""
-    starting: dict[str, int] = field(default_factory=dict)
-    """Raw values that variables have when the first step begins, where initialization changes them."""
     declared_names: set[str] = field(default_factory=set)
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
@@ -100,7 +98,7 @@ class DataTable:
             if found is None or found not in domain:
                 raise NotLowered(f"{name} begins as {first.expr}, which is outside its domain, {domain}")
             raw = found
-        return SymbolicScalar(first.kind, Var(name, domain, self.starting.get(name, raw), doc, hidden))
+        return SymbolicScalar(first.kind, Var(name, domain, raw, doc, hidden))
 
     def write(self, writer: ProgramWriter, target: SymbolicScalar, value: Expr) -> None:
         """Assign a value of the right kind to a variable."""

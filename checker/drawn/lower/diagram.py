@@ -39,7 +39,6 @@ from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, Port, Wiring, numbe
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.domain import Domain, boolean
-from rovercheck.spec_model.lang.evaluate import run
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, all_of, any_of
 from rovercheck.spec_model.lang.programmed import StepProgram
 from rovercheck.spec_model.lang.system import Note, System, in_order
@@ -126,7 +125,7 @@ class _Attempt:
         self.inputs: dict[str, Expr] = {}
         self.data: dict[str, Expr] = {}
         self.views: dict[str, ChartView] = {}
-        self.starts: list[tuple[ChartWriter, ProgramWriter]] = []
+        self.temporaries: set[str] = set()
         self._names = _chart_names(model.charts)
         self._taken = _shared_names(model)
         self._missing: list[str] = []
@@ -144,15 +143,21 @@ class _Attempt:
         last = [Assign(var, value) for var, value in self._written(outputs)]
         if last:
             components = (*components, Block("Outports", last, text="The outputs of the model."))
-        self._initialize()
         shown = {name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()}
         notes = tuple(self.table.notes.values())
         step_ms, said = _milliseconds(self.step)
-        system = in_order(
-            plain_name(self.model.name), *components,
-            text=f"The model {self.model.name}, read from {self._file}.",
-            notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
-        )  # fmt: skip
+
+
+        def system_of(*parts: Component) -> System:
+            return in_order(
+                plain_name(self.model.name), *parts,
+                text=f"The model {self.model.name}, read from {self._file}.",
+                notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
+            )  # fmt: skip
+
+        system = system_of(*components)
+        if unwritten := self._unwritten(system, shown):
+            system = system_of(*components, unwritten)
         taken = frozenset(self.table.declared_names)
         return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes, taken)
 
@@ -198,25 +203,15 @@ class _Attempt:
             self._ports.append((var, in_steps(expr, var)))
         yield from self._ports
 
-    # --- what happens before the first step ----------------------------------------------------------------
-
-    def _initialize(self) -> None:
-        """Charts that are entered at initialization: their data begin as that leaves them."""
-        every: dict[str, int] = {}
-        for _, writer in self.starts:
-            statements = writer.written()
-            variables = {one.name: one for one in _variables(statements)}
-            at = {name: every.get(name, one.init) for name, one in variables.items()}
-            kept = {name: one.init for name, one in variables.items()}
-            run(statements, at)
-            for name, var in variables.items():
-                if name not in writer.temporaries and at[name] != kept[name]:
-                    every[name] = at[name]
-                    if var.name in self.inputs:
-                        continue
-        if every != self.table.starting:
-            self.table.starting = every
-            self.table.changed.add("initialization")
+    def _unwritten(self, system: System, shown: Mapping[str, Expr]) -> Block | None:
+        """The data that nothing writes: they keep their first values, and are no inputs."""
+        given = {one.name for one in self.inputs.values() if isinstance(one, Var)}
+        places = {var.name for chart in system.charts for var in (chart.entered, *chart.locations)}
+        known = [one for one in (*self.data.values(), *shown.values()) if isinstance(one, Var)]
+        every = {one.name: one for one in (*system.inputs.values(), *known)}
+        others = given | system.written.keys() | places | self.temporaries
+        keep = [Assign(var, var) for name, var in every.items() if name not in others]
+        return Block("Unwritten", keep, text="Data that nothing writes.") if keep else None
 
     # --- what blocks need ----------------------------------------------------------------------------------
 
@@ -389,18 +384,17 @@ class _SystemLowering:
             )  # fmt: skip
         else:
             events = self._events(node, chart, writer)
+            if chart.drawn.at_initialization:
+                first = self._writer(chart, view, writer)
+                at_rest = [attempt.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
+                self._feed(first, chart, at_rest)
+                first.initialize()
             made.step(events)
             statements = writer.written()
             program = StepProgram(statements, tuple(writer.temporaries.values()), dict(view.fired))
             component = view.made(program)
             attempt.views[name] = view
-            if chart.drawn.at_initialization:
-                start = ProgramWriter(name)
-                first = self._writer(chart, view, start)
-                at_rest = [attempt.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
-                self._feed(first, chart, at_rest)
-                first.initialize()
-                attempt.starts.append((first, start))
+        attempt.temporaries |= writer.temporaries.keys()
         for one in chart.root.data.values():
             cells = made.cells[one.ssid]
             for leaf, cell in leaves(cells, f"{name}.{one.name}"):
@@ -550,17 +544,6 @@ def _shared_names(model: DrawnModel) -> set[str]:
     seen: list[str] = [d.name for chart in model.charts for d in chart.content.data if d.scope != "input"]
     ports = [one.name for one in model.system.blocks if one.kind == "Inport"]
     return {name for name in seen if seen.count(name) > 1} | set(ports)
-
-
-def _variables(statements: Sequence[object]) -> Iterator[Var]:
-    from rovercheck.spec_model.lang.action import each_action, expressions
-    from rovercheck.spec_model.lang.walk import variables
-
-    for one in each_action(statements):  # type: ignore[arg-type]
-        if isinstance(one, Assign):
-            yield one.var
-    for formula in expressions(statements):  # type: ignore[arg-type]
-        yield from variables(formula).values()
 
 
 def _milliseconds(step: str) -> tuple[int, list[Note]]:

@@ -209,8 +209,17 @@ class ChartWriter(StatementWriter):
         self._end_step()
 
     def initialize(self) -> None:
-        """What happens before the first step, if it is so drawn."""
-        self.writer.choose(folded(~self._has_begun), self._first)
+        """What happens before the first step, if it is so drawn; nothing sees it before the chart is executed."""
+
+        def first() -> None:
+            self._stack.append((0, ""))
+            self._first()
+            if self._flows_only:
+                self._flow()
+            self._stack.pop()
+
+        self.writer.choose(folded(~self._has_begun), first)
+        self.writer.known[self.view.begun.name] = Const(1, self.view.begun.sort)
 
     def _begin_step(self) -> None:
         for node in self.chart.root.every():
@@ -261,6 +270,8 @@ class ChartWriter(StatementWriter):
         self._stack.append((0, event))
         if self._flows_only:
             self._flow()
+        elif self.chart.drawn.at_initialization:
+            self._execute_root()
         else:
             self.writer.choose(self._has_begun, self._execute_root, self._first)
         self._stack.pop()
