@@ -36,7 +36,7 @@ class RandomChart:
         kinds = {name: random.choice(WHOLE) for name in ("a", "b", "g", "h")}
         self.texts = Texts(random, chart.language, kinds, input_events=list(input_events))
         self.texts.members, self.texts.array = random.random() < 0.4, random.random() < 0.4
-        self.names = 0
+        self.names, self.loops = 0, 1
 
     def draw(self) -> None:
         """Everything: data, states, functions, transitions."""
@@ -86,7 +86,7 @@ class RandomChart:
             made = self.chart.state(name, level.state, order if level.parallel else 0, parallel=parallel)
             below = _Level(made, parallel, name)
             level.inside.append(below)
-            if depth < 2 and self.names < 9 and self.random.random() < 0.45 - 0.15 * depth:
+            if depth < 2 and self.names < 7 and self.random.random() < 0.45 - 0.15 * depth:
                 self._inside(below, depth + 1)
             else:
                 made.parallel = below.parallel = False
@@ -150,7 +150,7 @@ class RandomChart:
             if self.random.random() < 0.3:
                 self._path(one.state, holder, order, targets, inner=False)
                 continue
-            sends = self.random.random() < 0.12
+            sends = self.random.random() < 0.12 and self.texts.may_send()
             label = self.texts.sending_label() if sends else self.texts.label()
             self.chart.transition(one.state, target, label, order, holder)
 
@@ -176,7 +176,8 @@ class RandomChart:
         chart.transition(source, first, texts.label(), order, holder, inner=inner)
         if self.random.random() < 0.25:
             chart.transition(source, first, texts.label(), order + 10, holder, inner=inner)
-        if self.random.random() < 0.3:
+        if self.loops and self.random.random() < 0.3:
+            self.loops -= 1
             chart.transition(first, first, f"[h < {self.random.randint(1, 4)}]{{h = h + 1; {texts.note()}}}", 1, holder)
         for number in range(2, self.random.randint(2, 4) + 1):
             label = texts.label(always=self.random.random() < 0.3)

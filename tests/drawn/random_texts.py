@@ -30,6 +30,8 @@ class Texts:
     members: bool = False
     array: bool = False
     numbers: int = 0
+    sends: int = 3
+    """Actions that send an event, which are as many copies of the chart in its step."""
 
     @property
     def c(self) -> bool:
@@ -174,7 +176,7 @@ class Texts:
         """Some actions, of which the first is seen."""
         found = [self.note()]
         for _ in range(self.number(0, most)):
-            found.append(self.send() if sends and self.chance(0.12) else self.action())
+            found.append(self.send() if sends and self.chance(0.12) and self.may_send() else self.action())
         if len(found) > 1 and self.chance(0.5):
             found.append(self.note())
         return " ".join(found)
@@ -226,6 +228,11 @@ class Texts:
         )
         last = f"otherwise\n {self.action(depth - 1)}\n" if self.chance(0.6) else ""
         return f"\nswitch k\n{cases}{last}end\n"
+
+    def may_send(self) -> bool:
+        """Whether one more action may send an event."""
+        self.sends -= 1
+        return self.sends >= 0
 
     def send(self) -> str:
         """An event that is sent once in a step at most: ``turn`` is another one in each step."""

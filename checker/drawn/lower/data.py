@@ -68,6 +68,11 @@ class DataTable:
     """Counters of states, by the state's path and what is counted, with the steps up to which it matters."""
     watched: dict[str, dict[str, int]] = field(default_factory=dict)
     """Of each chart the data whose changes it sees, by name, with their SSIDs."""
+    nested: int = 3
+    """How often one state answers an event within itself, which is more than charts do that end.
+
+    Fewer where the step is too long otherwise.
+    """
     declared_names: set[str] = field(default_factory=set)
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)

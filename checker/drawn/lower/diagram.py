@@ -14,7 +14,7 @@ from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import KindTable, is_member, sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.names import Scope
-from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.program import MOST_STATEMENTS, ProgramWriter, TooManyStatements
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     LOGICAL,
@@ -45,6 +45,8 @@ from rovercheck.spec_model.lang.system import Note, System, in_order
 
 ATTEMPTS = 24
 """Times that a model is lowered until nothing new is learned of its data."""
+MANY_STATEMENTS = 5_000
+"""A step with more is lowered with fewer events that are answered within each other."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,13 @@ def lowered_model(
     table = DataTable(KindTable.of(model), domains or {})
     for attempt in range(ATTEMPTS):
         table.begin()
-        found = _Attempt(model, file, table, charts, step or model.step, final=attempt == ATTEMPTS - 1).lowered()
+        try:
+            found = _Attempt(model, file, table, charts, step or model.step, attempt == ATTEMPTS - 1).lowered()
+        except TooManyStatements as error:
+            if table.nested == 1:
+                raise NotLowered(str(error)) from error
+            table.nested -= 1
+            continue
         _refuse_too_fine(table)
         if not table.changed:
             return found
@@ -372,7 +380,7 @@ class _SystemLowering:
         if chart.drawn.activity_output:
             raise NotLowered("the output of the active child: give it a datum that entry actions set")
         view = ChartView(chart, name, attempt._file)
-        writer = ProgramWriter(name)
+        writer = ProgramWriter(name, MANY_STATEMENTS if attempt.table.nested > 1 else MOST_STATEMENTS)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
         if chart.drawn.kind == "MATLAB function":
@@ -389,7 +397,10 @@ class _SystemLowering:
                 at_rest = [attempt.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
                 self._feed(first, chart, at_rest)
                 first.initialize()
-            made.step(events)
+            if events and chart.drawn.at_initialization:  # its outputs are seen before its first event
+                writer.choose(self._any_event(node, chart), lambda: made.step(events))
+            else:
+                made.step(events)
             statements = writer.written()
             program = StepProgram(statements, tuple(writer.temporaries.values()), dict(view.fired))
             component = view.made(program)
@@ -404,7 +415,7 @@ class _SystemLowering:
             del events_
             by = self._any_event(node, chart)
             edges = self._edges(node)
-            return [Enabled(by, component), *edges]
+            return [component if chart.drawn.at_initialization else Enabled(by, component), *edges]
         return [component]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:

@@ -53,8 +53,6 @@ MOST_VISITS = 1_000
 """Times that a path goes through one junction, where each is sure."""
 FEW_VISITS = 16
 """Times that it does where a guard may end it."""
-NESTED = 3
-"""Times that one state answers an event within itself, which is more than charts do that end."""
 Path = list[TransitionNode]
 
 
@@ -70,7 +68,7 @@ class ChartWriter(StatementWriter):
         self.rules = IntegerRules(chart.language.name != "MATLAB", chart.drawn.saturates)
         self.times = ChartTimes(chart.drawn.path, step, table, writer)
         self._values_named, self._name_of = named, data_names
-        self._parts: dict[object, list[Statement]] = {}
+        self._parts: dict[object, tuple[list[Statement], int]] = {}
         self._stack: list[tuple[int, str]] = []
         self._most: int | None = None
         self._conditions: dict[str, tuple[StateNode, Callable[[], Expr]]] = {}
@@ -314,8 +312,8 @@ class ChartWriter(StatementWriter):
     def _execute(self, node: StateNode) -> None:
         """An active state: outer transitions, during and on-event actions, inner transitions, children."""
         event = self._stack[-1][1] if self._stack else ""
-        if self._stack.count((node.ssid, event)) >= NESTED:
-            said = f"{event or 'a step'} may be answered by {node.path} {NESTED} times within itself"
+        if self._stack.count((node.ssid, event)) >= self.table.nested:
+            said = f"{event or 'a step'} may be answered by {node.path} {self.table.nested} times within itself"
             self.writer.fault(said)
             return
         key = (node.ssid, event, tuple(sorted(self._stack)) if self.sends else ())
@@ -325,7 +323,7 @@ class ChartWriter(StatementWriter):
             self._parts[key] = self.writer.alone(lambda: self._execution(node, event))
             self._stack.pop()
             self._dropped = dropped
-        self.writer.include(self._parts[key])
+        self.writer.include(*self._parts[key])
 
     def _execution(self, node: StateNode, event: str) -> None:
         for one in node.lineage():
@@ -716,8 +714,8 @@ class ChartWriter(StatementWriter):
             for node in self.chart.root.every():
                 self.times.saw(name, node, self.active(node))
             if receiver is None:
-                if self._stack.count((0, name)) >= NESTED:
-                    self.writer.fault(f"{name} may be sent {NESTED} times within itself")
+                if self._stack.count((0, name)) >= self.table.nested:
+                    self.writer.fault(f"{name} may be sent {self.table.nested} times within itself")
                     return
                 self._stack.append((0, name))
                 dropped, self._dropped = self._dropped, None
