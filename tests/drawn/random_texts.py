@@ -30,7 +30,7 @@ class Texts:
     members: bool = False
     array: bool = False
     numbers: int = 0
-    sends: int = 3
+    sends: int = 2
     """Actions that send an event, which are as many copies of the chart in its step."""
 
     @property

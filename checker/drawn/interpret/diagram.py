@@ -47,7 +47,7 @@ class ModelRunner:
         self._inports = [root[number] for number in sorted(root)]
         ends = {number_of(one): one for one in model.system.blocks if one.kind == "Outport"}
         self._outports = [ends[number] for number in sorted(ends)]
-        self._top.initialize()
+        self._top.initialize([self._at_rest(port) for port in self._inports])
 
     def inputs(self) -> Iterator[str]:
         """The flat names of all inputs, in the order of their ports."""
@@ -207,13 +207,23 @@ class _System:
                 found.append(self._value(_port(node)))
         return found
 
-    def initialize(self) -> None:
-        """Charts that are so drawn are entered before the first step."""
+    def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
+        """Charts that are so drawn are entered before the first step, with inputs at rest."""
         for node in self._nodes:
             if node.chart is not None and node.chart.chart.drawn.kind == "chart":
+                if node.chart.chart.drawn.at_initialization:
+                    self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
             if node.system is not None:
                 node.system.initialize()
+
+    def _feed_at_rest(self, node: _Node, machine: ChartMachine, inputs: Sequence[MatlabValue]) -> None:
+        """What comes straight from an input of the model has its type already."""
+        data = [one for one in machine.chart.root.data.values() if one.scope == "input"]
+        for one, port in zip(data, node.inputs, strict=False):
+            block = None if port is None else self._by_id[port[0]].block
+            if block is not None and block.kind == "Inport" and number_of(block) <= len(inputs):
+                machine.memory.write(one.ssid, inputs[number_of(block) - 1])
 
     def machines(self) -> Iterator[ChartMachine]:
         """The charts here and in subsystems, in their order of execution."""
