@@ -36,7 +36,7 @@ class RandomChart:
         kinds = {name: random.choice(WHOLE) for name in ("a", "b", "g", "h")}
         self.texts = Texts(random, chart.language, kinds, input_events=list(input_events))
         self.texts.members, self.texts.array = random.random() < 0.4, random.random() < 0.4
-        self.names, self.loops = 0, 1
+        self.names, self.loops, self.most = 0, 1, random.choice((3, 5, 5, 8))
 
     def draw(self) -> None:
         """Everything: data, states, functions, transitions."""
@@ -86,7 +86,7 @@ class RandomChart:
             made = self.chart.state(name, level.state, order if level.parallel else 0, parallel=parallel)
             below = _Level(made, parallel, name)
             level.inside.append(below)
-            if depth < 2 and self.names < 7 and self.random.random() < 0.45 - 0.15 * depth:
+            if depth < 2 and self.names < self.most and self.random.random() < 0.45 - 0.15 * depth:
                 self._inside(below, depth + 1)
             else:
                 made.parallel = below.parallel = False

@@ -172,7 +172,7 @@ class Texts:
             return f"log = (log * 31 + {self.numbers}) %% 9973;"
         return f"log = mod(log * 31 + {self.numbers}, 9973);"
 
-    def actions(self, most: int = 3, sends: bool = True) -> str:
+    def actions(self, most: int = 2, sends: bool = True) -> str:
         """Some actions, of which the first is seen."""
         found = [self.note()]
         for _ in range(self.number(0, most)):
@@ -239,7 +239,7 @@ class Texts:
         event = self.one(*EVENTS)
         seen = f"seen_{event}"
         to = self.random.choice(self.states) if self.states and self.chance(0.4) else ""
-        way = f"send({event}, {to});" if to else self.one(f"{event};", f"send({event});")
+        way = self.one(f"send({event}, {to});", f"{to}.{event};") if to else self.one(f"{event};", f"send({event});")
         if self.c:
             return self.note()
         return f"if turn ~= {seen}, {seen} = turn; {way} {self.note()} end;"
@@ -249,7 +249,7 @@ class Texts:
         event = self.one(*EVENTS)
         seen, differs = f"seen_{event}", "!=" if self.c else "~="
         to = self.random.choice(self.states) if self.states and self.chance(0.4) else ""
-        way = f"send({event}, {to});" if to else self.one(f"{event};", f"send({event});")
+        way = self.one(f"send({event}, {to});", f"{to}.{event};") if to else self.one(f"{event};", f"send({event});")
         if self.chance(0.5):
             return f"[turn {differs} {seen}]{{{seen} = turn; {self.note()} {way} {self.note()}}}/{self.note()}"
         return f"[turn {differs} {seen}]{{{seen} = turn;}}/{self.note()} {way} {self.note()}"

@@ -240,11 +240,11 @@ class _System:
                 node.outputs = self._executed(node, inputs)
             except ChartFault as fault:
                 raise ChartFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
-        for node in self._nodes:
-            if node.block.kind in DELAYS:
-                [value] = self._values(node)
-                node.memory = value
-        return [self._values(node)[0] for node in self._ends]
+        found = [self._values(node)[0] for node in self._ends]
+        delays = [node for node in self._nodes if node.block.kind in DELAYS]
+        for node, [value] in [(node, self._values(node)) for node in delays]:
+            node.memory = value
+        return found
 
     def _executed(self, node: _Node, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
         block = node.block

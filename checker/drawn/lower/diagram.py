@@ -37,11 +37,12 @@ from rovercheck.checker.drawn.parsed import ParsedChart, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnContent, DrawnData, DrawnModel, DrawnSystem
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, Port, Wiring, number_of, wired
 from rovercheck.spec_model.lang.action import Assign
-from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.domain import Domain, boolean
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, all_of, any_of
 from rovercheck.spec_model.lang.programmed import StepProgram
 from rovercheck.spec_model.lang.system import Note, System, in_order
+from rovercheck.spec_model.lang.walk import variables
 
 ATTEMPTS = 24
 """Times that a model is lowered until nothing new is learned of its data."""
@@ -134,6 +135,8 @@ class _Attempt:
         self.data: dict[str, Expr] = {}
         self.views: dict[str, ChartView] = {}
         self.temporaries: set[str] = set()
+        self.memories: dict[str, Var] = {}
+        """What delays remember, by name: that changes when all else is done."""
         self._names = _chart_names(model.charts)
         self._taken = _shared_names(model)
         self._missing: list[str] = []
@@ -151,6 +154,7 @@ class _Attempt:
         last = [Assign(var, value) for var, value in self._written(outputs)]
         if last:
             components = (*components, Block("Outports", last, text="The outputs of the model."))
+        components = (*components, *top.delays())
         shown = {name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()}
         notes = tuple(self.table.notes.values())
         step_ms, said = _milliseconds(self.step)
@@ -201,12 +205,12 @@ class _Attempt:
         """The outputs that are no variables of their names already."""
         self._ports: list[tuple[Var, Expr]] = []
         for name, expr in outputs.items():
-            if isinstance(expr, Var) and expr.name == name:
+            if isinstance(expr, Var) and expr.name == name and name not in self.memories:
                 continue
             from rovercheck.checker.drawn.lower.program import domain_of, in_steps
 
             domain = domain_of(expr)
-            taken = name in self.inputs or name in self.data
+            taken = name in self.inputs or name in self.data or name in self.memories
             var = Var(f"{name} out" if taken else name, domain, domain.low, f"output of {self.model.name}")
             self._ports.append((var, in_steps(expr, var)))
         yield from self._ports
@@ -268,6 +272,8 @@ class _SystemLowering:
             raise NotLowered(str(fault)) from fault
         self.nodes = [self._node(block) for block in self._wiring.order]
         self._by_id = {node.block.id: node for node in self.nodes}
+        self.remembered: list[tuple[str, Symbolic, Symbolic]] = []
+        """The memories of delays here and in subsystems that run in every step, and what they get."""
         found = [node for node in self.nodes if node.block.kind == "Outport"]
         self.ends = sorted(found, key=lambda node: number_of(node.block))
 
@@ -312,13 +318,15 @@ class _SystemLowering:
             if node.block.kind in DELAYS:
                 first = self.attempt.value_of(node.block.parameters.get("InitialCondition", "0"))
                 node.memory = self._remembered(node, first)
+                leaf_vars = (one.expr for _, one in leaves(node.memory, ""))
+                self.attempt.memories |= {var.name: var for var in leaf_vars if isinstance(var, Var)}
         for node in self.nodes:
             try:
                 components += self._component(node, given)
             except NotLowered as error:
                 where = " ".join(node.block.path.split())
                 raise NotLowered(str(error) if str(error).startswith(where) else f"{where}: {error}") from error
-        components += self._delays()
+        self._remember()
         return tuple(components), [self._values(node)[0] for node in self.ends]
 
     def _remembered(self, node: _BlockNode, first: Symbolic) -> Symbolic:
@@ -334,20 +342,32 @@ class _SystemLowering:
     def _named(self, block: DrawnBlock) -> str:
         return plain_name(f"{self._path}_{block.name}")
 
-    def _delays(self) -> Iterator[Component]:
-        table = self.attempt.table
+    def _remember(self) -> None:
         for node in self.nodes:
-            if node.memory is None:
-                continue
-            [value] = self._values(node)
-            name = self._named(node.block)
-            table.saw(name, "double" if value.kind == UNTYPED else value.kind, *size_of(value))
-            writer = ProgramWriter(name)
-            pairs = zip(leaves(node.memory, name), leaves(value, name), strict=True)
-            for (_, cell), (_, new) in pairs:
-                made = each_converted(new, cell.kind, IntegerRules(), table.kinds)
-                table.write(writer, cell, single_of(made).expr)
-            yield Block(name, writer.written(), text=f"The delay {node.block.path}.")
+            if node.memory is not None:
+                [value] = self._values(node)
+                name = self._named(node.block)
+                self.attempt.table.saw(
+                    name, "double" if value.kind == UNTYPED else value.kind, *size_of(value)
+                )
+                self.remembered.append((name, node.memory, value))
+
+    def delays(self) -> list[Component]:
+        """All delays get their new values together, once nothing reads the old ones any more."""
+        table, pairs = self.attempt.table, list[tuple[SymbolicScalar, SymbolicScalar]]()
+        writer = ProgramWriter(plain_name(f"{self._path}_Delays".strip("_")))
+        for name, memory, value in self.remembered:
+            for (_, cell), (_, new) in zip(leaves(memory, name), leaves(value, name), strict=True):
+                made = single_of(each_converted(new, cell.kind, IntegerRules(), table.kinds))
+                reads_other = any(one in self.attempt.memories for one in variables(made.expr))
+                pairs.append((cell, writer.kept("next", made) if reads_other else made))
+        for cell, new in pairs:
+            table.write(writer, cell, new.expr)
+        if not pairs:
+            return []
+        statements = writer.written()
+        temporaries = tuple(writer.temporaries.values())
+        return [Block(writer.name, statements, text="What delays remember.", temporaries=temporaries)]
 
     def _values(self, node: _BlockNode) -> list[Symbolic]:
         return [number("double", 0) if port is None else self._value(port) for port in node.inputs]
@@ -409,7 +429,9 @@ class _SystemLowering:
         for one in chart.root.data.values():
             cells = made.cells[one.ssid]
             for leaf, cell in leaves(cells, f"{name}.{one.name}"):
-                attempt.data[leaf] = cell.expr
+                at = cell.expr.name if isinstance(cell.expr, Var) else ""
+                if at not in writer.temporaries and at not in attempt.memories:  # else it is another one later
+                    attempt.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
         if events_ := (self._input_events(chart) if chart.drawn.kind != "MATLAB function" else []):
             del events_
@@ -496,6 +518,7 @@ class _SystemLowering:
         components, ends = inner.lowered(self._values(node))
         if not node.control:
             node.outputs = list(ends)
+            self.remembered += inner.remembered
             return list(components)
         for one in system.blocks:
             for name, kind in (("StatesWhenEnabling", "EnablePort"), ("OutputWhenDisabled", "Outport")):
@@ -510,22 +533,32 @@ class _SystemLowering:
             by, after = folded(any_of(*self._edge_conditions(node, [kind] * count))), self._edges(node)
         else:
             raise NotLowered(f"a subsystem that is controlled by {node.control}")
-        held, outputs = self._held(inner, ends)
+        held, outputs = self._held(inner, ends, components)
         node.outputs = outputs
-        return [Enabled(by, *components, *held, name=plain_name(block.name)), *after]
+        inside = (*components, *held, *inner.delays())
+        return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
 
-    def _held(self, inner: "_SystemLowering", ends: Sequence[Symbolic]) -> tuple[list[Component], list[Symbolic]]:
+    def _held(
+        self, inner: "_SystemLowering", ends: Sequence[Symbolic], components: Sequence[Component]
+    ) -> tuple[list[Component], list[Symbolic]]:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.attempt.table, list[Symbolic](), list[Component]()
+        written = {name for part in parts(components) for name in part.written}
         for end, value in zip(inner.ends, ends, strict=True):
-            if all(isinstance(one.expr, Var) and not self._is_input(one.expr) for _, one in leaves(value, "")):
+            text = end.block.parameters.get("InitialOutput", "[]").strip()
+            own = (isinstance(one.expr, Var) and one.expr.name in written for _, one in leaves(value, ""))
+            if text == "[]" and all(own):
                 outputs.append(value)
                 continue
             name = inner._named(end.block)
-            text = end.block.parameters.get("InitialOutput", "[]").strip()
             first = table.kinds.first_value(value.kind, *size_of(value))
+            remembered = [self.attempt.memories.get(str(one.expr)) for _, one in leaves(value, "")]
             if text != "[]":
                 first = each_converted(self.attempt.value_of(text), value.kind, IntegerRules(), table.kinds)
+            elif all(one is not None for one in remembered):
+                begun = (Const(var.init, var.sort) for var in remembered if var is not None)
+                kinds = (one.kind for _, one in leaves(value, ""))
+                first = filled(value, map(SymbolicScalar, kinds, begun))
             cells = table.declared(name, first, doc=f"the output {end.block.path}")
             writer = ProgramWriter(name)
             for (_, cell), (_, new) in zip(leaves(cells, name), leaves(value, name), strict=True):
@@ -533,9 +566,6 @@ class _SystemLowering:
             held.append(Block(name, writer.written(), text=f"The output {end.block.path}."))
             outputs.append(cells)
         return held, outputs
-
-    def _is_input(self, var: Var) -> bool:
-        return var.name in self.attempt.inputs
 
 
 _NOTHING = DrawnContent()
