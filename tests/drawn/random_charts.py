@@ -178,7 +178,7 @@ class RandomChart:
             chart.transition(source, first, texts.label(), order + 10, holder, inner=inner)
         if self.loops and self.random.random() < 0.3:
             self.loops -= 1
-            chart.transition(first, first, f"[h < {self.random.randint(1, 4)}]{{h = h + 1; {texts.note()}}}", 1, holder)
+            chart.transition(first, first, f"[h >= 0 && h < {self.random.randint(1, 4)}]{{h = h + 1; {texts.note()}}}", 1, holder)
         for number in range(2, self.random.randint(2, 4) + 1):
             label = texts.label(always=self.random.random() < 0.3)
             if self.random.random() < 0.35:

@@ -178,12 +178,12 @@ class RandomDiagram:
         chart.more = {"executeAtInitialization": 1} if self.random.random() < 0.2 else {}
         chart.transition(None, chart.state("A\nen: count = uint8(1);\ndu: count = count * 2 + 1;"))
         inside.add("uint8", counter)
+        if control:
+            self.system.line(self.signal("logical", "int8")[1], f"{block}#{control}")
         for number, kinds_ in enumerate((("int8", "uint8"), ("logical",), ("double",)), 1):
             kind, one = inside.signal(*kinds_)
             system.line(one, system.outport(f"o{number}", number))
             self.add(kind, f"{block}/{number}")
-        if control:
-            self.system.line(self.signal("logical", "int8")[1], f"{block}#{control}")
 
 
 def random_diagram(seed: int, folder: Path) -> DrawnModel:

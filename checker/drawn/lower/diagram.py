@@ -139,6 +139,9 @@ class _Attempt:
         """What delays remember, by name: that changes when all else is done."""
         self._names = _chart_names(model.charts)
         self._taken = _shared_names(model)
+        self._block_names: dict[str, str] = {}
+        self._data_names = {one.name for chart in model.charts for one in chart.content.data}
+        self._data_names |= {one.name for one in model.system.blocks if one.kind in ("Inport", "Outport")}
         self._missing: list[str] = []
 
     def lowered(self) -> LoweredModel:
@@ -253,6 +256,14 @@ class _Attempt:
         """The name of a chart in the system."""
         return self._names[chart.path]
 
+    def name_of_block(self, block: DrawnBlock, short: str) -> str:
+        """The name of what a block remembers: the short one where nothing else in the model has it."""
+        if block.id not in self._block_names:
+            others = {*self._block_names.values(), *self._data_names, *self._names.values()}
+            named = (short, plain_name(block.path), plain_name(f"{block.path} {block.id}"))
+            self._block_names[block.id] = next(one for one in named if one not in others)
+        return self._block_names[block.id]
+
     def name_of(self, chart: DrawnChart, one: DrawnData, node: StateNode) -> str:
         """The name of a datum of a chart: its own, where nothing else in the model has it."""
         if node.parent is None and one.name not in self._taken:
@@ -340,7 +351,7 @@ class _SystemLowering:
         return self.attempt.table.declared(name, made, doc=f"what {node.block.path} gives")
 
     def _named(self, block: DrawnBlock) -> str:
-        return plain_name(f"{self._path}_{block.name}")
+        return self.attempt.name_of_block(block, plain_name(f"{self._path}_{block.name}"))
 
     def _remember(self) -> None:
         for node in self.nodes:
@@ -544,6 +555,8 @@ class _SystemLowering:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.attempt.table, list[Symbolic](), list[Component]()
         written = {name for part in parts(components) for name in part.written}
+        cells_ = (one.expr for _, memory, _ in inner.remembered for _, one in leaves(memory, ""))
+        memories = {var.name: var for var in cells_ if isinstance(var, Var)}
         for end, value in zip(inner.ends, ends, strict=True):
             text = end.block.parameters.get("InitialOutput", "[]").strip()
             own = (isinstance(one.expr, Var) and one.expr.name in written for _, one in leaves(value, ""))
@@ -552,7 +565,7 @@ class _SystemLowering:
                 continue
             name = inner._named(end.block)
             first = table.kinds.first_value(value.kind, *size_of(value))
-            remembered = [self.attempt.memories.get(str(one.expr)) for _, one in leaves(value, "")]
+            remembered = [memories.get(str(one.expr)) for _, one in leaves(value, "")]
             if text != "[]":
                 first = each_converted(self.attempt.value_of(text), value.kind, IntegerRules(), table.kinds)
             elif all(one is not None for one in remembered):
