@@ -123,7 +123,9 @@ class RandomChart:
             self.chart.transition(None, junction, self.texts.label(always=True), 1, holder or self.chart)
             for order in (1, 2):
                 label = self.texts.label(always=order == 2, timed=False)
-                self.chart.transition(junction, self.random.choice(states), label, order, holder or self.chart)
+                self.chart.transition(
+                    junction, self.random.choice(states), label, order, holder or self.chart
+                )
             return
         label = self.texts.label(always=True) if self.random.random() < 0.4 else ""
         self.chart.transition(None, states[0], label, 1, holder or self.chart)
@@ -178,7 +180,13 @@ class RandomChart:
             chart.transition(source, first, texts.label(), order + 10, holder, inner=inner)
         if self.loops and self.random.random() < 0.3:
             self.loops -= 1
-            chart.transition(first, first, f"[h >= 0 && h < {self.random.randint(1, 4)}]{{h = h + 1; {texts.note()}}}", 1, holder)
+            chart.transition(
+                first,
+                first,
+                f"[h >= 0 && h < {self.random.randint(1, 4)}]{{h = h + 1; {texts.note()}}}",
+                1,
+                holder,
+            )
         for number in range(2, self.random.randint(2, 4) + 1):
             label = texts.label(always=self.random.random() < 0.3)
             if self.random.random() < 0.35:
@@ -230,7 +238,8 @@ def random_model(seed: int, folder: Path) -> DrawnModel:
     random = Random(seed)
     model = WrittenModel("one", step="0.1")
     ports = {
-        name: model.root.inport(name, n, OutDataTypeStr=kind) for n, (name, kind) in enumerate(INPUTS.items(), 1)
+        name: model.root.inport(name, n, OutDataTypeStr=kind)
+        for n, (name, kind) in enumerate(INPUTS.items(), 1)
     }
     block, chart = model.root.chart("C")
     languages: tuple[Language, ...] = ("MATLAB", "MATLAB", "C", "C with bit operations")
@@ -255,7 +264,9 @@ def random_model(seed: int, folder: Path) -> DrawnModel:
         model.root.line(both, f"{block}#trigger")
     outs = [one.name for one in chart.children if getattr(one, "scope", "") == "OUTPUT_DATA"]
     for number, name in enumerate(outs, 1):
-        model.root.line(f"{block}/{number}", model.root.outport(f"{name}_out" if number % 2 else name, number))
+        model.root.line(
+            f"{block}/{number}", model.root.outport(f"{name}_out" if number % 2 else name, number)
+        )
     gears = {name: number for number, name in enumerate(MEMBERS)}
     beside = dictionary(folder / "types.sldd", enumerations={"Gear": gears})
     return read_model(model.save(folder / "one.slx"), [beside])

@@ -77,7 +77,9 @@ class RandomDiagram:
 
     def _sum(self) -> None:
         kind, inputs = self._same()
-        self.block("Sum", TWO, inputs, kind, Inputs=self.random.choice(("++", "+-", "|-+", "2")), **self._rules())
+        self.block(
+            "Sum", TWO, inputs, kind, Inputs=self.random.choice(("++", "+-", "|-+", "2")), **self._rules()
+        )
 
     def _gain(self) -> None:
         kind, one = self.signal("int8", "uint8", "double")
@@ -163,7 +165,9 @@ class RandomDiagram:
             system.block("EnablePort", "Enable", {}, {})
         if control == "trigger":
             kind = self.random.choice(("rising", "falling", "either"))
-            system.block("TriggerPort", "Trigger", {}, {}, **({} if kind == "rising" else {"TriggerType": kind}))
+            system.block(
+                "TriggerPort", "Trigger", {}, {}, **({} if kind == "rising" else {"TriggerType": kind})
+            )
         inside = RandomDiagram(system, self.random, self.depth + 1)
         for number, (kind, one) in enumerate(kinds, 1):
             inside.add(kind, system.inport(f"i{number}", number))
@@ -197,9 +201,10 @@ def random_diagram(seed: int, folder: Path) -> DrawnModel:
     every = [one for some in drawing.pool.values() for one in some]
     for number, one in enumerate(random.sample(every, min(6, len(every))), 1):
         model.root.line(one, model.root.outport(f"y{number}", number))
-    beside = dictionary(folder / "types.sldd", buses={"Pair": [("level", "int8", "1"), ("ready", "boolean", "1")]})
+    beside = dictionary(
+        folder / "types.sldd", buses={"Pair": [("level", "int8", "1"), ("ready", "boolean", "1")]}
+    )
     return read_model(model.save(folder / "one.slx"), [beside])
-
 
 
 __all__ = ["RandomDiagram", "random_diagram"]

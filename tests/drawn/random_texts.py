@@ -184,7 +184,11 @@ class Texts:
     def action(self, depth: int = 1) -> str:
         """One action without events."""
         name = self.random.choice(list(self.kinds))
-        some = [lambda: f"{name} = {self.whole()};", lambda: f"flag = {self.condition()};", lambda: self.note()]
+        some = [
+            lambda: f"{name} = {self.whole()};",
+            lambda: f"flag = {self.condition()};",
+            lambda: self.note(),
+        ]
         if not self.c:
             some += [
                 lambda: f"y = max(min({self.real()}, 4), -4);", lambda: f"{name} = {self.number(-300, 300)};",
@@ -239,7 +243,11 @@ class Texts:
         event = self.one(*EVENTS)
         seen = f"seen_{event}"
         to = self.random.choice(self.states) if self.states and self.chance(0.4) else ""
-        way = self.one(f"send({event}, {to});", f"{to}.{event};") if to else self.one(f"{event};", f"send({event});")
+        way = (
+            self.one(f"send({event}, {to});", f"{to}.{event};")
+            if to
+            else self.one(f"{event};", f"send({event});")
+        )
         if self.c:
             return self.note()
         return f"if turn ~= {seen}, {seen} = turn; {way} {self.note()} end;"
@@ -249,9 +257,15 @@ class Texts:
         event = self.one(*EVENTS)
         seen, differs = f"seen_{event}", "!=" if self.c else "~="
         to = self.random.choice(self.states) if self.states and self.chance(0.4) else ""
-        way = self.one(f"send({event}, {to});", f"{to}.{event};") if to else self.one(f"{event};", f"send({event});")
+        way = (
+            self.one(f"send({event}, {to});", f"{to}.{event};")
+            if to
+            else self.one(f"{event};", f"send({event});")
+        )
         if self.chance(0.5):
-            return f"[turn {differs} {seen}]{{{seen} = turn; {self.note()} {way} {self.note()}}}/{self.note()}"
+            return (
+                f"[turn {differs} {seen}]{{{seen} = turn; {self.note()} {way} {self.note()}}}/{self.note()}"
+            )
         return f"[turn {differs} {seen}]{{{seen} = turn;}}/{self.note()} {way} {self.note()}"
 
 

@@ -442,7 +442,7 @@ class ChartWriter(StatementWriter):
             if isinstance(events, Const):
                 made = self.condition(label.guard, scope)
             else:
-                made = folded(events & self.condition(label.guard, scope))
+                made = self.decided_by("&&", events, label.guard, scope)
             self._sure = isinstance(made, Const)
             return made
 
