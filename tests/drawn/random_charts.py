@@ -5,13 +5,57 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-from rovercheck.checker.drawn.records import DrawnEnumeration, DrawnModel
+from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.simulink.model import read_model
 from tests.drawn.random_texts import EVENTS, INPUTS, MEMBERS, WHOLE, Language, Texts
-from tests.simulink.writer.charts import Node, WrittenChart, WrittenJunction, WrittenState
+from tests.simulink.writer.charts import Node, WrittenChart, WrittenData, WrittenJunction, WrittenState
 from tests.simulink.writer.dictionaries import dictionary
 from tests.simulink.writer.packages import WrittenModel
 
+PAIR = """function [p, q] = pair(v, w)
+persistent last
+if isempty(last)
+    last = int16(1);
+end
+held = zeros(1, 3);
+place = 1;
+while place <= 3
+    if double(v) > 20 * place
+        held(place) = double(w);
+        place = place + 1;
+        continue
+    end
+    held(place) = place;
+    if w == 3
+        break
+    end
+    place = place + 1;
+end
+switch place
+    case {1, 2}
+        last = int16(sum(held));
+    case 3
+        last = last + 1;
+    otherwise
+        last = min(last * 2, 100);
+end
+p = last;
+if held(2) > 2
+    q = int8(helped(held));
+    return
+end
+q = int8(place);
+end
+function r = helped(values)
+r = 0;
+for one = values
+    if one < 0
+        continue
+    end
+    r = r + one;
+end
+end
+"""
 OUTPUTS = ("log", "a", "b", "flag", "y")
 
 
@@ -212,9 +256,12 @@ class RandomChart:
             early = "if v == 1\n r = 9;\n return\nend\n" if self.random.random() < 0.5 else ""
             script = f"function r = made(v)\n{body}\n{early}{keeps}{loop}end\n"
             chart.function("r = made(v)", script=script)
-            texts.functions.append("uint8" + "(made" if False else "made")
+            texts.functions.append("made")
         if self.random.random() < 0.4:
             self._graphical()
+        if self.random.random() < 0.3 and not texts.c:
+            chart.function("[p, q] = pair(v, w)", script=PAIR)
+            texts.pairs = True
 
     def _graphical(self) -> None:
         """A flow chart that counts up in a loop, and answers with what it counted."""
@@ -262,7 +309,7 @@ def random_model(seed: int, folder: Path) -> DrawnModel:
         model.root.line(ports["on"], f"{both}/1")
         model.root.line(ports["u"], f"{both}/2")
         model.root.line(both, f"{block}#trigger")
-    outs = [one.name for one in chart.children if getattr(one, "scope", "") == "OUTPUT_DATA"]
+    outs = [one.name for one in chart.of(WrittenData) if one.scope == "OUTPUT_DATA"]
     for number, name in enumerate(outs, 1):
         model.root.line(
             f"{block}/{number}", model.root.outport(f"{name}_out" if number % 2 else name, number)
@@ -272,4 +319,4 @@ def random_model(seed: int, folder: Path) -> DrawnModel:
     return read_model(model.save(folder / "one.slx"), [beside])
 
 
-__all__ = ["DrawnEnumeration", "RandomChart", "random_model"]
+__all__ = ["RandomChart", "random_model"]

@@ -1,7 +1,7 @@
 """Random texts of charts in both languages: guards, actions, functions.
 
-Whole numbers have types that end, and real numbers are multiples of 0.25 between two ends, so that a chart has
-finitely many states.  ``log`` mixes in the number of every action, so that their order is seen in it.
+Whole numbers have types that end, and real numbers are multiples of 0.25 between two ends, so that a chart
+has finitely many states.  ``log`` mixes in the number of every action, so that their order is seen in it.
 """
 
 from dataclasses import dataclass, field
@@ -27,6 +27,8 @@ class Texts:
     states: list[str] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
     input_events: list[str] = field(default_factory=list)
+    pairs: bool = False
+    """Whether there is a function of two results."""
     members: bool = False
     array: bool = False
     numbers: int = 0
@@ -59,7 +61,7 @@ class Texts:
             lambda: f"({inner}) * {self.number(2, 5)}", lambda: f"({inner}) / {self.number(1, 7)}",
             lambda: f"-({inner})", lambda: f"{self.one(*WHOLE)}({inner})", lambda: f"abs({inner})",
             lambda: f"{self.one('min', 'max')}({inner}, {literal})", lambda: self.remainder(inner),
-            lambda: f"{self.one(*WHOLE)}({self.condition(1)})", lambda: self.element(),
+            lambda: f"{self.one(*WHOLE)}({self.condition(1)})", self.element,
         ]  # fmt: skip
         if self.functions:
             some.append(lambda: f"{self.random.choice(self.functions)}({inner})")
@@ -131,11 +133,13 @@ class Texts:
         limit = str(n) if unit == "tick" else f"0.{n}"
         name = self.one("after", "before", "at", "every")
         return self.one(
-            f"{name}({limit}, {unit})", f"after({n * 100}, msec)", f"temporalCount(tick) {self.compare()} {n}",
+            f"{name}({limit}, {unit})", f"after({n * 100}, msec)",
+            f"temporalCount(tick) {self.compare()} {n}",
             f"elapsed(sec) {self.one('<', '>=', '>')} 0.{n}", f"count({self.condition(0)}) >= {n}",
             f"duration({self.condition(0)}) {self.one('>', '>=')} 0.{n}",
             f"duration({self.condition(0)}, msec) >= {n * 100}", f"temporalCount(E) > {self.number(0, 2)}",
-            f"hasChanged({self.one('u', 'k', 'on', 'x', *self.kinds)})", f"hasChangedTo(u, {self.number(-1, 1)})",
+            f"hasChanged({self.one('u', 'k', 'on', 'x', *self.kinds)})",
+            f"hasChangedTo(u, {self.number(-1, 1)})",
             f"hasChangedFrom(k, {self.number(0, 2)})", f"{self.one('rising', 'falling', 'crossing')}(u)",
         )  # fmt: skip
 
@@ -187,18 +191,23 @@ class Texts:
         some = [
             lambda: f"{name} = {self.whole()};",
             lambda: f"flag = {self.condition()};",
-            lambda: self.note(),
+            self.note,
         ]
         if not self.c:
             some += [
                 lambda: f"y = max(min({self.real()}, 4), -4);", lambda: f"{name} = {self.number(-300, 300)};",
-                lambda: f"flag = {self.timed()};", lambda: f"{name} = {self.one('temporalCount(tick)', 'u')};",
+                lambda: f"flag = {self.timed()};",
+                lambda: f"{name} = {self.one('temporalCount(tick)', 'u')};",
             ]  # fmt: skip
         else:
             some += [
                 lambda: f"{name}{self.one('++', '--', ' += 3', ' -= 2', ' *= 2')};",
                 lambda: f"y = {self.one('x', 'x + 0.25', '-x', '1.5')};",
             ]  # fmt: skip
+        if self.pairs:
+            some.append(
+                lambda: f"[{self.one('a', 'b', '~')}, {self.one('g', 'h')}] = pair({self.one('u', 'k')}, k);"
+            )
         if self.members:
             some.append(lambda: f"mode = Gear.{self.one(*MEMBERS)};")
         if self.array:

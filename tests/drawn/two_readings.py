@@ -26,7 +26,7 @@ DOMAINS: Mapping[str, Domain] = {"x": fixed(-2, 2, "0.25")}
 
 @dataclass(frozen=True)
 class Compared:
-    """What became of a model: ``rows`` that were alike, whether they ended in a fault, or why it is refused."""
+    """What became of a model: ``rows`` that were alike, the fault that ended them, or why it is refused."""
 
     rows: int
     refused: str = ""

@@ -221,7 +221,7 @@ class ChartWriter(StatementWriter):
 
     def _begin_step(self) -> None:
         for node in self.chart.root.every():
-            self.times.begin(node, self.active(node))
+            self.times.begin(node, self._is_timed(node))
         if self.chart.drawn.initializes_outputs:
             for one in self.chart.root.data.values():
                 if one.scope == "output":
@@ -229,6 +229,10 @@ class ChartWriter(StatementWriter):
         for name, (start, now) in self._memories().items():
             self._starts[name] = self.writer.kept("start", now)
             del start
+
+    def _is_timed(self, node: StateNode) -> Expr:
+        """Whether the times of a state go on: those of the chart itself do not, as it is no state."""
+        return FALSE if node.parent is None else self.active(node)
 
     def _memories(self) -> dict[str, tuple[SymbolicScalar, SymbolicScalar]]:
         """The data whose changes are seen: what they were a step before, and what they are."""
@@ -253,7 +257,7 @@ class ChartWriter(StatementWriter):
         for what, (node, condition) in self._conditions.items():
             by_node.setdefault(node.path, {})[what] = condition
         for node in self.chart.root.every():
-            self.times.end(node, self.active(node), by_node.get(node.path, {}))
+            self.times.end(node, self._is_timed(node), by_node.get(node.path, {}))
         for name, (before, _) in self._memories().items():
             if name in self._starts:
                 self.table.write(self.writer, before, self._starts[name].expr)
@@ -712,7 +716,7 @@ class ChartWriter(StatementWriter):
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         def answer() -> None:
             for node in self.chart.root.every():
-                self.times.saw(name, node, self.active(node))
+                self.times.saw(name, node, self._is_timed(node))
             if receiver is None:
                 if self._stack.count((0, name)) >= self.table.nested:
                     self.writer.fault(f"{name} may be sent {self.table.nested} times within itself")
