@@ -47,7 +47,7 @@ from rovercheck.spec_model.lang.walk import variables
 ATTEMPTS = 24
 """Times that a model is lowered until nothing new is learned of its data."""
 MANY_STATEMENTS = 5_000
-"""A step with more is lowered with fewer events that are answered within each other."""
+"""A step with more is shortened first, if that is possible."""
 
 
 @dataclass(frozen=True)
@@ -82,14 +82,16 @@ def lowered_model(
         if parsed.notes:
             raise NotLowered(str(parsed.notes[0]))
     table = DataTable(KindTable.of(model), domains or {})
-    for attempt in range(ATTEMPTS):
+    most = MANY_STATEMENTS
+    for _ in range(ATTEMPTS):
         table.begin()
         try:
-            found = _Attempt(model, file, table, charts, step or model.step, attempt == ATTEMPTS - 1).lowered()
+            found = _Attempt(model, file, table, charts, step or model.step, most).lowered()
         except TooManyStatements as error:
-            if table.nested == 1:
-                raise NotLowered(str(error)) from error
-            table.nested -= 1
+            if not table.shortened():
+                if most == MOST_STATEMENTS:
+                    raise NotLowered(str(error)) from error
+                most = MOST_STATEMENTS
             continue
         _refuse_too_fine(table)
         if not table.changed:
@@ -126,8 +128,9 @@ class _Attempt:
 
     def __init__(
         self, model: DrawnModel, file: str, table: DataTable, charts: Mapping[str, ParsedChart], step: str,
-        final: bool,
+        most: int,
     ) -> None:  # fmt: skip
+        self.most = most
         self.model, self.table, self._charts, self.step, self._file = model, table, charts, step, file
         self.types = BlockTypes(table.kinds, self.value_of)
         self.named = {one.name: one.value for one in model.parameters}
@@ -411,7 +414,7 @@ class _SystemLowering:
         if chart.drawn.activity_output:
             raise NotLowered("the output of the active child: give it a datum that entry actions set")
         view = ChartView(chart, name, attempt._file)
-        writer = ProgramWriter(name, MANY_STATEMENTS if attempt.table.nested > 1 else MOST_STATEMENTS)
+        writer = ProgramWriter(name, attempt.most)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
         if chart.drawn.kind == "MATLAB function":

@@ -51,8 +51,6 @@ from rovercheck.spec_model.lang.system import Statement
 
 MOST_VISITS = 1_000
 """Times that a path goes through one junction, where each is sure."""
-FEW_VISITS = 16
-"""Times that it does where a guard may end it."""
 Path = list[TransitionNode]
 
 
@@ -318,6 +316,7 @@ class ChartWriter(StatementWriter):
         event = self._stack[-1][1] if self._stack else ""
         if self._stack.count((node.ssid, event)) >= self.table.nested:
             said = f"{event or 'a step'} may be answered by {node.path} {self.table.nested} times within itself"
+            self.table.met.add("nested")
             self.writer.fault(said)
             return
         key = (node.ssid, event, tuple(sorted(self._stack)) if self.sends else ())
@@ -431,8 +430,11 @@ class ChartWriter(StatementWriter):
             return
         visits = sum(1 for other in path if other.target is one.target)
         sure = one.label.guard is None or self._sure
-        if visits >= (MOST_VISITS if sure else FEW_VISITS):
-            self.writer.fault(f"a path may go through junction {one.target.ssid} of {one.holder.path} for ever")
+        most = MOST_VISITS if sure else self.table.visits
+        if visits >= most:
+            self.table.met |= set() if sure else {"visits"}
+            where = f"junction {one.target.ssid} of {one.holder.path}"
+            self.writer.fault(f"a path may go through {where} more than {most:,} times")
             return
         self._try(one.target.outgoing, longer, scope, complete, done, in_function)
 
@@ -719,6 +721,7 @@ class ChartWriter(StatementWriter):
                 self.times.saw(name, node, self._is_timed(node))
             if receiver is None:
                 if self._stack.count((0, name)) >= self.table.nested:
+                    self.table.met.add("nested")
                     self.writer.fault(f"{name} may be sent {self.table.nested} times within itself")
                     return
                 self._stack.append((0, name))

@@ -120,6 +120,7 @@ class ProgramWriter:
         self.locals = self._merged(first, self.locals, one, other)
         if one or other:
             self._rows.append(If(condition, tuple(one), tuple(other)))
+            self._grow(1)
         self._skip(first_raised | then_raised, sure=one_ended and other_ended)
 
     def _side(self, write: Callable[[], None]) -> tuple[list[Statement], bool, dict[str, Var]]:
@@ -228,6 +229,7 @@ class ProgramWriter:
             self.locals = self._merged(opened.locals, self.locals, first, inside)
             if inside or first:
                 self._rows.append(If(opened.condition, tuple(first), tuple(inside)))
+                self._grow(1)
 
     def _merged(
         self, one: dict[str, Symbolic], other: dict[str, Symbolic], first: list[Statement], second: list[Statement]
@@ -262,6 +264,7 @@ class ProgramWriter:
             return value
         var = self.temporary(name, domain_of(value.expr))
         self._rows.append(Assign(var, in_steps(value.expr, var)))
+        self._grow(1)
         return SymbolicScalar(value.kind, var)
 
     def written(self) -> tuple[Statement, ...]:
