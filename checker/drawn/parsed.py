@@ -175,7 +175,16 @@ class _Parser:
 
     def _state(self, parent: StateNode, state: DrawnState) -> None:
         path = f"{parent.path}/{state.name}"
-        node = StateNode(state.ssid, state.name, path, parent, state.parallel, state.order, line=state.line, label=state.label)
+        node = StateNode(
+            state.ssid,
+            state.name,
+            path,
+            parent,
+            state.parallel,
+            state.order,
+            line=state.line,
+            label=state.label,
+        )
         parent.children.append(node)
         self._states[state.ssid] = node
         try:

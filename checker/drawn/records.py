@@ -83,6 +83,8 @@ class DrawnTransition:
     order: int = 0
     inner: bool = False
     points: tuple[Point, ...] = ()
+    label_at: Point | None = None
+    """The upper left corner of its label."""
     line: int = 0
 
 

@@ -11,6 +11,7 @@ from rovercheck.checker.encode.symbolic import SymbolicTransition
 from rovercheck.checker.encode.terms import Terms
 from rovercheck.checker.system.intervals import Interval, postorder
 from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.domain import Domain
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
@@ -222,4 +223,11 @@ def _keeps(expr: Expr, var: Var) -> bool:
 def _is_member(expr: Expr, var: Var) -> bool:
     if isinstance(expr, Const):
         return expr.value in var.domain
-    return expr is var or (isinstance(expr, Var) and set(expr.domain.values) <= set(var.domain.values))
+    return expr is var or (isinstance(expr, Var) and _is_part(expr.domain, var.domain))
+
+
+def _is_part(one: Domain, whole: Domain) -> bool:
+    """Whether all values of a domain are in another one, which may have more than can be listed."""
+    if whole.dense:
+        return whole.low <= one.low and one.high <= whole.high
+    return len(one) <= len(whole) and set(one.values) <= set(whole.values)

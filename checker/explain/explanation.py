@@ -7,13 +7,13 @@ from time import process_time
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.engines import Progress, quiet
+from rovercheck.checker.explain.cells import cells_of
 from rovercheck.checker.explain.necessary_inputs import forcing
 from rovercheck.checker.explain.unrolled_run import OutOfTime, Over, never
 from rovercheck.checker.results.trace import NecessaryInputs, Trace
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.store.parts import PartStore
 from rovercheck.checker.system.lowering_cache import lowered
-from rovercheck.checker.system.partition import partitions
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.checker.verify.runs.replay import ReplayError, followed
@@ -44,7 +44,7 @@ def check(system: TransitionSystem, goal: Var, run: Run, found: NecessaryInputs)
     soon leave no admissible inputs.  Raises ``ReplayError`` if one ends otherwise.
     """
     part = sliced(system, [goal])
-    choices = {n: [c.value for c in p.cells] for n, p in partitions(part).items()}
+    choices = {n: [c.value for c in p.cells] for n, p in cells_of(part, run).items()}
     wanted = max(LEAST, min(RUNS, TICKS // max(1, len(run))))
     drawn = (_completed(part, run, found, choices, seed) for seed in range(wanted))
     replayed = 0

@@ -13,12 +13,13 @@ from functools import partial
 from rovercheck.checker.encode.bits import Circuit, circuit
 from rovercheck.checker.engines import Progress, quiet
 from rovercheck.checker.explain.backwards import ExplanationTooLarge, backwards
+from rovercheck.checker.explain.cells import cells_of
 from rovercheck.checker.explain.fewest import fewest, indispensable, simulated
 from rovercheck.checker.explain.unrolled_run import Over, Place, Unrolled, never
 from rovercheck.checker.explain.value_ranges import widened
 from rovercheck.checker.results.trace import NecessaryInputs, Needed
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.partition import Partition, partitions
+from rovercheck.checker.system.partition import Partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.runs.replay import ReplayError
 from rovercheck.spec_model.lang.expr import Var
@@ -45,7 +46,7 @@ def forcing(
     that is nothing, and ``ReplayError`` if all inputs of the run together do not force its end: the solver
     then contradicts the replay.
     """
-    made, cells = circuit(system, [goal.name]), partitions(sliced(system, [goal]))
+    made, cells = circuit(system, [goal.name]), cells_of(sliced(system, [goal]), run)
     wide, minimal, smallest = _searched(made, goal.name, run, cells, progress, over)
     order = {v.name: i for i, v in enumerate(system.inputs)}
     places = sorted(wide, key=lambda place: (place[0], order[place[1]]))

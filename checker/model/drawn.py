@@ -1,6 +1,6 @@
 """A model of Simulink as a model to check: its system, and the words in which properties speak of it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -10,15 +10,18 @@ from rovercheck.checker.drawn.lower.domains import DomainsFile, domains_path, re
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.model.two_readings import compared_readings
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Expr, any_of
 from rovercheck.spec_model.lang.place import Place, here
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.system import Note, System
 
 SUFFIX = ".slx"
+SECONDS = 1.0
+"""Seconds for which the system is run beside the direct interpreter whenever a model is read."""
 
 
 @dataclass(frozen=True)
@@ -134,9 +137,29 @@ def lowered_simulink(path: Path, model: DrawnModel, said: DomainsFile) -> Simuli
     if unknown:
         name = min(unknown)
         known = [*lowered.inputs, *lowered.taken]
-        raise ModelError(f"{said.path}: {name} is no input and no datum of the model. {did_you_mean(name, known)}")
-    system = replace(lowered.system, place=Place(str(path), 1))
+        raise ModelError(
+            f"{said.path}: {name} is no input and no datum of the model. {did_you_mean(name, known)}"
+        )
+    notes = [*lowered.system.notes, *_beside(path, lowered, said)]
+    system = replace(lowered.system, place=Place(str(path), 1), notes=tuple(notes))
     return SimulinkModel(path, replace(lowered, system=system))
+
+
+def _beside(path: Path, lowered: LoweredModel, said: DomainsFile) -> Iterator[Note]:
+    """The system is run beside the direct interpreter.
+
+    Yields a note where they differ in a model that computes with real numbers, which the system does not
+    round; raises ``ModelError`` where they differ otherwise.
+    """
+    found = compared_readings(lowered, SECONDS, said.step).difference
+    if found is None:
+        return
+    if not lowered.real:
+        raise ModelError(
+            f"{path.name}: the two ways in which it is read differ {found}. This is an error of rovercheck: "
+            "please report it, with the file."
+        )
+    yield Note(f"Real numbers are exact: the interpreter, which rounds them, differs {found}.", "exact reals")
 
 
 __all__ = ["SUFFIX", "SimulinkModel", "lowered_simulink", "read_simulink", "simulink_model"]

@@ -56,7 +56,9 @@ def _properties_of(path: Path) -> list[Path]:
     return files_of(file) if file.exists() else []
 
 
-def modules_of(files: Sequence[Path], folder: Path) -> tuple[Neighbours, list[tuple[Path, ModuleType]], list[str]]:
+def modules_of(
+    files: Sequence[Path], folder: Path
+) -> tuple[Neighbours, list[tuple[Path, ModuleType]], list[str]]:
     """The files of one folder that run, with their modules; and what is wrong with the others, with lines."""
     neighbours = Neighbours(folder)
     modules, faults = list[tuple[Path, ModuleType]](), list[str]()

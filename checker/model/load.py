@@ -40,7 +40,10 @@ def load(path: Path) -> Model:
     files = files_of(path)
     folder = files[0].parent if files else path.parent
     neighbours, modules, faults = modules_of(files, folder)
-    found = _Found([*((path, [one]) for one in drawn), *((file, vars(module).values()) for file, module in modules)], faults)
+    found = _Found(
+        [*((path, [one]) for one in drawn), *((file, vars(module).values()) for file, module in modules)],
+        faults,
+    )
     found.take_all()
     on_record, requirements, hazards = {}, dict[str, Requirement](), dict[str, Hazard]()
     beside = list[str]()

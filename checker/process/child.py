@@ -68,6 +68,8 @@ def _made(
 
 
 def _reason(error: BaseException) -> str:
+    if isinstance(error, MemoryError) and str(error):
+        return str(error)
     return "the memory limit is reached" if starved(error) else f"{type(error).__name__}: {error}"
 
 

@@ -6,6 +6,7 @@ from itertools import groupby
 
 from rovercheck.checker.render.story import start_values, value
 from rovercheck.checker.results.trace import Trace, counted_ticks
+from rovercheck.checker.system.cells import MOST_LISTED
 from rovercheck.spec_model.lang.domain import Num
 
 
@@ -103,12 +104,15 @@ def _stretches(numbers: Sequence[int], regular: bool) -> Iterator[tuple[int, int
 def _allowed(trace: Trace, name: str, values: frozenset[int]) -> str:
     """``d1 >= 71 cm``, ``mode = SAFE``, ``cmd != STOP``, ``y in 0.1..0.5``."""
     var = trace.system.variables[name]
-    others = [v for v in var.domain.values if v not in values]
+    few = len(var.domain) <= MOST_LISTED
+    others = [v for v in var.domain.values if v not in values] if few else []
     if len(values) == 1:
         return f"{var.name} = {value(trace, var.name, min(values))}"
     if len(others) == 1:
         return f"{var.name} != {value(trace, var.name, others[0])}"
-    spans = list(_spans(var.domain.values, values)) if isinstance(var.sort, Num) else []
+    spans = list(_spans(var.domain.values, values)) if few and isinstance(var.sort, Num) else []
+    if not few:
+        spans = [(first, last) for first, last, _ in _stretches(sorted(values), regular=False)]
     if len(spans) == 1 and spans[0][0] == var.domain.low:
         return f"{var.name} <= {value(trace, var.name, spans[0][1])}"
     if len(spans) == 1 and spans[0][1] == var.domain.high:

@@ -8,6 +8,7 @@ from rovercheck.checker.render.drawing.emphasis import Emphasis, emphasis
 from rovercheck.checker.render.drawing.folding import shortened
 from rovercheck.checker.render.drawing.labels import action_lines, arrows, explained
 from rovercheck.checker.render.drawing.nested_layout import picture
+from rovercheck.checker.render.drawing.own_figure import own_picture
 from rovercheck.checker.render.drawing.picture import Box, PicturePiece, Spot
 from rovercheck.checker.render.drawing.text import LINE, block, width, wrap
 from rovercheck.checker.results.format import Format
@@ -22,6 +23,8 @@ FORMAT = Format(
 )
 
 MARGIN = 24
+HISTORY = "History"
+"""What the names of history junctions begin with."""
 ACTION = 62
 """Letters of a line of a list of actions that is unfolded."""
 STYLE = """
@@ -103,7 +106,9 @@ def _drawn(
     """Width, height and elements."""
     heading = [chart.name, *wrap(chart.text, 110)]
     top = MARGIN + 20 + LINE * (len(heading) - 1) + 10
-    place = picture(chart, folded).moved(MARGIN, top)
+    figure = chart.figure
+    place = picture(chart, folded) if figure is None else own_picture(chart, figure, folded)
+    place = place.moved(MARGIN, top)
     wide = max(place.width, *(width(t, 17 if not i else 11) for i, t in enumerate(heading)), 420) + 2 * MARGIN
     foot = _foot(chart, wide - 2 * MARGIN, legend)
     body = [svg.text(MARGIN, MARGIN + 14, heading[0], "chart")]
@@ -182,4 +187,7 @@ def _number(piece: PicturePiece) -> str:
 
 
 def _spot(spot: Spot) -> str:
-    return svg.tag("circle", cx=spot.x, cy=spot.y, r=spot.radius, class_="dot" if spot.dot else "junction")
+    circle = svg.tag("circle", cx=spot.x, cy=spot.y, r=spot.radius, class_="dot" if spot.dot else "junction")
+    if not spot.path or not spot.path[-1].startswith(HISTORY):
+        return circle
+    return circle + svg.text(spot.x - 4, spot.y + 4, "H", "number")

@@ -164,6 +164,7 @@ class _ChartReader:
         order = self._whole(one, one.property_of("executionOrder", "0"), "executionOrder")
         ends = (e.property_of("intersection") for e in (one.child("src"), one.child("dst")) if e is not None)
         spots = [cast(Point, numbers(text, 6)[4:]) for text in ends if text]
+        label = one.property_of("labelPosition")
         if spots and (middle := one.property_of("midPoint")):
             spots.insert(1, cast(Point, numbers(middle, 2)))
         return DrawnTransition(
@@ -174,6 +175,7 @@ class _ChartReader:
             order=0 if order == _AUTOMATIC else order,
             inner=source is not None and source == holder,
             points=tuple(spots),
+            label_at=cast(Point, numbers(label, 4)[:2]) if label else None,
             line=one.line,
         )
 

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from rovercheck.checker.system.wide_cells import CellNumbers
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
@@ -31,12 +32,14 @@ class Partition:
 
     var: Var
     cells: tuple[Cell, ...]
-    values: tuple[int, ...]
-    numbers: tuple[int, ...]
+    values: Sequence[int]
+    numbers: Sequence[int]
 
     @cached_property
     def cell_of(self) -> Mapping[int, int]:
         """The number of the cell of each admissible value."""
+        if isinstance(self.values, range):
+            return CellNumbers(self.values, self.numbers)
         return dict(zip(self.values, self.numbers, strict=True))
 
     def members(self, number: int) -> Iterator[int]:
@@ -47,7 +50,8 @@ class Partition:
 def partitions(system: TransitionSystem) -> dict[str, Partition]:
     """The cells of each input of the system, by name.
 
-    Values that break a conjunct of the assumption about that input alone belong to no cell.
+    Values that break a conjunct of the assumption about that input alone belong to no cell.  Raises
+    ``TooManyValues``, which is a ``MemoryError``, for an input of which each of very many values matters.
     """
     roots = [*expressions(system.step), system.assume]
     scope = {v.name: v for v in system.inputs}

@@ -10,6 +10,7 @@ from itertools import product
 
 from rovercheck.checker.system.live_variables import LiveCycle, Names, live_cycle
 from rovercheck.checker.system.partition import conjuncts, partition
+from rovercheck.checker.system.wide_cells import TooManyValues
 from rovercheck.properties.forms import Property, Recoverable
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -72,7 +73,10 @@ def _always_met(group: list[Expr], found: Mapping[str, Var], inputs: Mapping[str
     """Whether inputs that satisfy the group exist in every state (False when too many to try)."""
     free = [v for n, v in found.items() if n in inputs]
     given = [v for n, v in found.items() if n not in inputs]
-    cells = {v.name: [c.value for c in partition(v, group, found).cells] for v in found.values()}
+    try:
+        cells = {v.name: [c.value for c in partition(v, group, found).cells] for v in found.values()}
+    except TooManyValues:
+        return False
     size = 1
     for values in cells.values():
         size *= len(values)

@@ -14,6 +14,7 @@ from rovercheck.spec_model.lang.action import Action, expressions, reads, writes
 from rovercheck.spec_model.lang.domain import Domain, Enum, enumeration
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean, several
 from rovercheck.spec_model.lang.expr import Const, Expr, Var, any_of
+from rovercheck.spec_model.lang.figure import ChartFigure
 from rovercheck.spec_model.lang.place import Place, here
 from rovercheck.spec_model.lang.stateflow.message import LabelText, label_text
 from rovercheck.spec_model.lang.transition import Default, Junction, Transition, default_of, to
@@ -174,6 +175,11 @@ class Chart:
     def inner(self) -> Mapping[Path, Sequence[Transition]]:
         """Transitions that are drawn inside the state that they leave, which only imported charts have."""
         return {}
+
+    @property
+    def figure(self) -> ChartFigure | None:
+        """Where things stand in the drawing of an imported chart."""
+        return None
 
     @cached_property
     def states(self) -> dict[Path, State]:

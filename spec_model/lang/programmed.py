@@ -13,6 +13,7 @@ from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
 from rovercheck.spec_model.lang.chart import Chart, Path, State
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.figure import ChartFigure
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.system import Program
@@ -24,11 +25,13 @@ class StepProgram:
     """What a chart does in a step.
 
     ``temporaries`` are written before they are read in every step.  ``fired`` says which path was taken where
-    its marker, a variable that nothing reads, is assigned.
+    its marker, a variable that nothing reads, is assigned.  ``starting`` are raw values that variables have
+    before the first step, of a chart that is entered when it is initialized.
     """
 
     statements: Program
     temporaries: tuple[Var, ...] = ()
+    starting: Mapping[str, int] = field(default_factory=dict)
     fired: Mapping[str, FiredTransition] = field(default_factory=dict)
 
     @cached_property
@@ -50,6 +53,7 @@ class ProgrammedChart(Chart):
         junctions: Sequence[object] = (),
         parallel: bool = False,
         inner: Mapping[Path, Sequence[Transition]] | None = None,
+        figure: ChartFigure | None = None,
         text: str = "",
         place: Place | None = None,
     ) -> None:
@@ -57,9 +61,14 @@ class ProgrammedChart(Chart):
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place  # type: ignore[arg-type]
         )  # fmt: skip
-        self.program, self._inner = program, inner or {}
+        self.program, self._inner, self._figure = program, inner or {}, figure
 
-    _written = (*Chart._written, "program", "_inner")
+    _written = (*Chart._written, "program", "_inner", "_figure")
+
+    @property
+    def figure(self) -> ChartFigure | None:
+        """Where things stand in its drawing."""
+        return self._figure
 
     @property
     def inner(self) -> Mapping[Path, Sequence[Transition]]:
@@ -77,7 +86,14 @@ class ProgrammedChart(Chart):
     @cached_property
     def entered(self) -> Var:
         """True once the chart has had its first execution."""
-        return replace(super().entered, hidden=True)
+        own = super().entered
+        return replace(own, hidden=True, init=self.program.starting.get(own.name, own.init))
+
+    def location(self, path: Path = ()) -> Var:
+        """The variable that says which state of an exclusive composite is active."""
+        own = super().location(path)
+        init = self.program.starting.get(own.name, own.init)
+        return own if init == own.init else replace(own, init=init)
 
     @cached_property
     def _own(self) -> frozenset[str]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from tests.simulink.writer.charts import WrittenChart
+from tests.simulink.writer.charts import WrittenChart, WrittenJunction, WrittenState
 from tests.simulink.writer.dictionaries import dictionary
 from tests.simulink.writer.packages import Layout, WrittenModel
 from tests.simulink.writer.systems import WrittenSystem
@@ -48,6 +48,11 @@ def lamp(layout: Layout = "parts") -> WrittenModel:
     return model
 
 
+def _history(state: WrittenState) -> int:
+    """The SSID of the history junction of a state."""
+    return next(one.ssid for one in state.children if isinstance(one, WrittenJunction))
+
+
 def microwave(layout: Layout = "parts") -> WrittenModel:
     """Levels, history and a junction."""
     model = WrittenModel("microwave", release="R2023b", layout=layout)
@@ -61,6 +66,11 @@ def microwave(layout: Layout = "parts") -> WrittenModel:
     rest = chart.state("Rest\nen:\nheating = false;", cooking)
     paused = chart.state("Paused")
     choice = chart.junction()
+    chart.frames = {
+        idle.ssid: (160, 60, 160, 66), choice.ssid: (430, 190, 14, 14), cooking.ssid: (60, 300, 540, 240),
+        heat.ssid: (110, 420, 130, 50), rest.ssid: (430, 420, 130, 66), paused.ssid: (260, 640, 110, 50),
+        _history(cooking): (100, 500, 14, 14),
+    }  # fmt: skip
     for name, kind in {"door": "", "start": "", "minutes": "uint8"}.items():
         chart.data(name, "input", kind)
     for name, kind in {"heating": "boolean", "left": "uint16", "bell": "boolean"}.items():

@@ -11,6 +11,7 @@ Examples:
   rovercheck import supervisor.slx
   rovercheck import supervisor.slx --beside parameters.m --beside types.sldd
   rovercheck import supervisor.slx --compare run.csv
+  rovercheck import supervisor.slx --propose-domains
   rovercheck import supervisor.slx --json
 """
 
@@ -29,12 +30,23 @@ FILE = click.Path(path_type=Path)
     help="Run the model on the inputs of a log, a row a step, and compare its outputs: columns are named as "
     "the ports, elements as in probe.level and force(2).",
 )  # fmt: skip
+@click.option(
+    "--propose-domains", "propose", is_flag=True,
+    help="Write MODEL.domains.toml beside the model: a domain for each input and datum whose values do not "
+    "follow from the file, to be corrected.",
+)  # fmt: skip
+@click.option("--force", is_flag=True, help="With --propose-domains: also where that file is there.")
 @click.option("--json", "as_json", is_flag=True, help="All that was read, as JSON.")
-def import_(model: Path, beside: tuple[Path, ...], log: Path | None, as_json: bool) -> Exit:
+def import_(
+    model: Path, beside: tuple[Path, ...], log: Path | None, propose: bool, force: bool, as_json: bool
+) -> Exit:
     """Say what is drawn in a file of Simulink: charts, blocks, types, events, timers; without MATLAB.
 
     Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
+    from rovercheck.checker.commands.import_.propose import propose_domains
     from rovercheck.checker.commands.import_.run import import_model
 
+    if propose:
+        return propose_domains(model, beside, force)
     return import_model(model, beside, log, as_json)

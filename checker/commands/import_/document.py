@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from typing_extensions import TypedDict
 
+from rovercheck.checker.commands.import_.lowering import LoweringReport
 from rovercheck.checker.commands.import_.recorded import RecordingComparison
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import DrawingNote
@@ -21,12 +22,18 @@ class ImportDocument(TypedDict):
     """What stands in the file, as it is written there."""
     notes: Sequence[DrawingNote]
     """What has no meaning here, or is read otherwise than it is drawn."""
+    lowered: LoweringReport | None
+    """Whether it can be checked, and as which system; null where something has no meaning here."""
     compared: RecordingComparison | None
     """With ``--compare``: the model beside a log."""
 
 
 def document(
-    model: DrawnModel, notes: Sequence[DrawingNote], compared: RecordingComparison | None, code: Exit
+    model: DrawnModel,
+    notes: Sequence[DrawingNote],
+    lowered: LoweringReport | None,
+    compared: RecordingComparison | None,
+    code: Exit,
 ) -> dict[str, Any]:
     """A model as JSON; its fields are those of :class:`ImportDocument`."""
     return {
@@ -34,6 +41,7 @@ def document(
         "exit": code,
         "model": asdict(model),
         "notes": [asdict(note) for note in notes],
+        "lowered": None if lowered is None else asdict(lowered),
         "compared": None if compared is None else asdict(compared),
     }
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from rovercheck.checker.commands.import_.document import document
+from rovercheck.checker.commands.import_.lowering import LoweringReport, lowering_of
 from rovercheck.checker.commands.import_.recorded import RecordingComparison, compared_with
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import counted, out, text_width
@@ -31,18 +32,25 @@ def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: 
     for chart in map(parsed_chart, model.charts):
         notes += [*chart.notes, *unknown_names(chart, model.enumerations)]
     compared = None if log is None else compared_with(model, log)
+    lowering = None if any(note.kind == "refused" for note in notes) else lowering_of(path, model, beside)
     code = Exit.INCONCLUSIVE if any(note.kind == "refused" for note in notes) else Exit.AS_EXPECTED
+    if lowering is not None and lowering.refused:
+        code = Exit.INCONCLUSIVE
     if compared is not None and compared.differences:
         code = Exit.FAILED
+    if lowering is not None and lowering.difference:
+        code = Exit.INTERNAL
     if as_json:
-        print(json_text(document(model, notes, compared, code), ascii=True))
+        print(json_text(document(model, notes, lowering, compared, code), ascii=True))
         return code
     for line in _head(model):
         out.print(line, markup=False)
     if model.charts:
         out.print()
         listed(COLUMNS, [_row(chart) for chart in model.charts])
-    for lines in (_around(model), _types(model), _notes(notes), _compared(compared, log)):
+    for lines in (
+        _around(model), _types(model), _notes(notes), _lowered(path, lowering), _compared(compared, log)
+    ):  # fmt: skip
         told = list(lines)
         if told:
             out.print()
@@ -106,6 +114,28 @@ def _notes(notes: Sequence[DrawingNote]) -> Iterator[str]:
             yield head
         for note in own:
             yield _wrapped(f"{'✗' if kind == 'refused' else '•'} {note}", "  ")
+
+
+def _lowered(path: Path, found: LoweringReport | None) -> Iterator[str]:
+    if found is None:
+        return
+    if found.refused:
+        yield _wrapped(f"✗ It cannot be checked: {found.refused}.")
+        return
+    if found.needed:
+        yield _wrapped(f"• It cannot be checked yet: {found.needed}.")
+        return
+    size = f"{counted(found.inputs, 'input', 'inputs')}, {counted(found.variables, 'variable', 'variables')}"
+    yield _wrapped(f"✓ It can be checked, as a system with {size}: rovercheck check --model {path}")
+    for note in found.notes:
+        yield _wrapped(f"• {note}", "  ")
+    if found.difference:
+        yield _wrapped(
+            f"✗ The two ways in which it is read differ, which is an error of rovercheck: {found.difference}. "
+            "Please report it.", "  ",
+        )  # fmt: skip
+    else:
+        yield _wrapped(f"in {found.steps:,} steps of random runs the direct interpreter gives the same", "  ")
 
 
 def _compared(found: RecordingComparison | None, log: Path | None) -> Iterator[str]:

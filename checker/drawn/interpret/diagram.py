@@ -214,8 +214,10 @@ class _System:
                 if node.chart.chart.drawn.at_initialization:
                     self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
+                node.outputs = _outputs_of(node.chart)
             if node.system is not None:
                 node.system.initialize()
+                node.outputs = node.system.at_rest()
 
     def _feed_at_rest(self, node: _Node, machine: ChartMachine, inputs: Sequence[MatlabValue]) -> None:
         """What comes straight from an input of the model has its type already."""

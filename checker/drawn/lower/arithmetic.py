@@ -168,9 +168,7 @@ def _member(expr: Expr, kind: str, kinds: KindTable) -> SymbolicScalar:
             raise NotLowered(f"{expr} is no member of {domain.sort}")
         return SymbolicScalar(kind, Const(expr.value, domain.sort))
     low, high = least_and_greatest(expr)
-    outside = high - low >= MOST_CASES or any(
-        value not in domain for value in range(int(low), int(high) + 1)
-    )
+    outside = high - low >= MOST_CASES or any(value not in domain for value in range(int(low), int(high) + 1))
     if outside:
         raise NotLowered(f"`{expr}` may be no member of {domain.sort}: convert each number by itself")
     first, *others = domain.values
@@ -216,7 +214,9 @@ def binary(sign: str, left: Symbolic, right: Symbolic, rules: IntegerRules) -> S
             raise NotLowered(f"{sign} between matrices of {shown}")
     rows, columns = size_of(left if isinstance(left, SymbolicArray) else right)
     count = rows * columns
-    lefts, rights = ((flat(one) * count)[:count] if size_of(one) == (1, 1) else flat(one) for one in (left, right))
+    lefts, rights = (
+        (flat(one) * count)[:count] if size_of(one) == (1, 1) else flat(one) for one in (left, right)
+    )
     made = [scalar_of(sign, one, other, rules) for one, other in zip(lefts, rights, strict=True)]
     return matrix(made, rows, columns)
 

@@ -184,7 +184,9 @@ def _sum(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symboli
 
 
 def _product(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
-    return reduce(lambda sofar, one: scalar_of("*", sofar, one, rules), flat(arguments[0]), number("double", 1))
+    return reduce(
+        lambda sofar, one: scalar_of("*", sofar, one, rules), flat(arguments[0]), number("double", 1)
+    )
 
 
 def _filled(value: int) -> Builtin:

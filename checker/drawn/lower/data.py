@@ -3,7 +3,7 @@
 A real number has a range that no file holds: it is given, or else it is learned from all that is assigned.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -76,6 +76,10 @@ class DataTable:
     """Turns of a loop that may end before each of them."""
     met: set[str] = field(default_factory=set)
     """Which of these limits there were in this attempt."""
+    starting: dict[str, int] = field(default_factory=dict)
+    """Raw values that variables have when the first step begins, where initialization changes them."""
+    at_rest: dict[str, int] = field(default_factory=dict)
+    """Raw values of data before that."""
     declared_names: set[str] = field(default_factory=set)
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
@@ -106,7 +110,8 @@ class DataTable:
             if found is None or found not in domain:
                 raise NotLowered(f"{name} begins as {first.expr}, which is outside its domain, {domain}")
             raw = found
-        return SymbolicScalar(first.kind, Var(name, domain, raw, doc, hidden))
+        self.at_rest[name] = raw
+        return SymbolicScalar(first.kind, Var(name, domain, self.starting.get(name, raw), doc, hidden))
 
     def write(self, writer: ProgramWriter, target: SymbolicScalar, value: Expr) -> None:
         """Assign a value of the right kind to a variable."""
@@ -124,7 +129,11 @@ class DataTable:
             if self.ranges[var.name].widened(low, high, value.sort.resolution):
                 self.changed.add(var.name)
         own, new = value.sort.resolution, var.sort.resolution
-        if (own / new).denominator == 1 or isinstance(value, Const) and (value.value * own / new).denominator == 1:
+        if (
+            (own / new).denominator == 1
+            or isinstance(value, Const)
+            and (value.value * own / new).denominator == 1
+        ):
             return rescale(value, Num(new))
         if var.name not in self.ranges:
             self.notes.setdefault(
@@ -162,7 +171,7 @@ class DataTable:
         return False
 
     @property
-    def endless(self) -> Iterable[str]:
+    def endless(self) -> list[str]:
         """The data whose ranges became wider in this attempt, or that are too fine or wide for one."""
         return sorted(name for name in self.changed if name in self.ranges)
 

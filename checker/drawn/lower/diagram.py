@@ -34,11 +34,19 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.view import ChartView, plain_name
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode, parsed_chart
-from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnContent, DrawnData, DrawnModel, DrawnSystem
+from rovercheck.checker.drawn.records import (
+    DrawnBlock,
+    DrawnChart,
+    DrawnContent,
+    DrawnData,
+    DrawnModel,
+    DrawnSystem,
+)
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, Port, Wiring, number_of, wired
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.domain import Domain, boolean
+from rovercheck.spec_model.lang.evaluate import run
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, all_of, any_of
 from rovercheck.spec_model.lang.programmed import StepProgram
 from rovercheck.spec_model.lang.system import Note, System, in_order
@@ -67,6 +75,8 @@ class LoweredModel:
     notes: Sequence[str] = ()
     taken: frozenset[str] = frozenset()
     """The names of all data that a domain may be given to, beside inputs."""
+    real: bool = False
+    """Whether it computes with real numbers, which are exact fractions here."""
 
 
 def lowered_model(
@@ -77,11 +87,18 @@ def lowered_model(
     ``domains`` are those of inputs and data, by name.  Raises ``NotLowered`` for what has no formula, with
     its place, and for a datum whose range is not given.
     """
+    try:
+        return _lowered(model, file, domains or {}, step)
+    except RecursionError:
+        raise NotLowered("states, blocks or expressions are nested too deeply") from None
+
+
+def _lowered(model: DrawnModel, file: str, domains: Mapping[str, Domain], step: str) -> LoweredModel:
     charts = {one.path: parsed_chart(one) for one in model.charts}
     for parsed in charts.values():
         if parsed.notes:
             raise NotLowered(str(parsed.notes[0]))
-    table = DataTable(KindTable.of(model), domains or {})
+    table = DataTable(KindTable.of(model), domains)
     most = MANY_STATEMENTS
     for _ in range(ATTEMPTS):
         table.begin()
@@ -96,19 +113,26 @@ def lowered_model(
         _refuse_too_fine(table)
         if not table.changed:
             return found
-    names = ", ".join(list(table.endless)[:5]) or ", ".join(sorted(table.changed)[:5])
-    raise NotLowered(
-        f"the range of {names} does not follow from what is assigned: give it a domain in the file of domains"
-    )
+    if table.endless:
+        raise RangeNotKnown("the range of {} does not follow from what is assigned", table.endless)
+    raise NotLowered(f"{', '.join(sorted(table.changed)[:5])} is of another type in each attempt")
 
 
 def _refuse_too_fine(table: DataTable) -> None:
     fine = table.too_fine()
     if fine:
-        raise NotLowered(
-            f"{', '.join(fine[:5])}: computed with more and more digits, or without end. Give it a domain with "
-            "a resolution in the file of domains"
+        raise RangeNotKnown("{} is computed with more and more digits, or without end", fine)
+
+
+class RangeNotKnown(NotLowered):
+    """The values of some data do not follow from the file: a person must give their domains."""
+
+    def __init__(self, said: str, names: Sequence[str]) -> None:
+        shown = ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+        super().__init__(
+            f"{said.format(shown)}. `rovercheck import MODEL.slx --propose-domains` writes a file to fill in"
         )
+        self.names = tuple(names)
 
 
 @dataclass
@@ -137,6 +161,7 @@ class _Attempt:
         self.inputs: dict[str, Expr] = {}
         self.data: dict[str, Expr] = {}
         self.views: dict[str, ChartView] = {}
+        self.starts: list[tuple[ChartWriter, ProgramWriter]] = []
         self.temporaries: set[str] = set()
         self.memories: dict[str, Var] = {}
         """What delays remember, by name: that changes when all else is done."""
@@ -152,16 +177,17 @@ class _Attempt:
         root = {number_of(one): one for one in self.model.system.blocks if one.kind == "Inport"}
         given = [self._input(root[n], top) for n in sorted(root)]
         if self._missing:
-            raise NotLowered(
-                f"no domain is given for {', '.join(self._missing)}: see rovercheck import --propose-domains"
-            )
+            raise RangeNotKnown("no domain is given for {}", self._missing)
         components, ends = top.lowered(given)
         outputs = self._outputs(top, ends)
         last = [Assign(var, value) for var, value in self._written(outputs)]
         if last:
             components = (*components, Block("Outports", last, text="The outputs of the model."))
         components = (*components, *top.delays())
-        shown = {name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()}
+        self._initialize()
+        shown = {
+            name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()
+        }
         notes = tuple(self.table.notes.values())
         step_ms, said = _milliseconds(self.step)
 
@@ -177,7 +203,13 @@ class _Attempt:
         if unwritten := self._unwritten(system, shown):
             system = system_of(*components, unwritten)
         taken = frozenset(self.table.declared_names)
-        return LoweredModel(self.model, system, self.inputs, shown, self.data, self.views, notes, taken)
+        return LoweredModel(
+            self.model, system, self.inputs, shown, self.data, self.views, notes, taken, self._computes
+        )
+
+    @property
+    def _computes(self) -> bool:
+        return bool(self.table.ranges) or bool(self.table.given.keys() - self.inputs.keys())
 
     # --- ports ---------------------------------------------------------------------------------------------
 
@@ -221,6 +253,8 @@ class _Attempt:
             self._ports.append((var, in_steps(expr, var)))
         yield from self._ports
 
+    # --- data that nothing writes ------------------------------------------------------------------------
+
     def _unwritten(self, system: System, shown: Mapping[str, Expr]) -> Block | None:
         """The data that nothing writes: they keep their first values, and are no inputs."""
         given = {one.name for one in self.inputs.values() if isinstance(one, Var)}
@@ -230,6 +264,24 @@ class _Attempt:
         others = given | system.written.keys() | places | self.temporaries
         keep = [Assign(var, var) for name, var in every.items() if name not in others]
         return Block("Unwritten", keep, text="Data that nothing writes.") if keep else None
+    # --- what happens before the first step ----------------------------------------------------------------
+
+    def _initialize(self) -> None:
+        """Charts that are entered at initialization: their data begin as that leaves them."""
+        every: dict[str, int] = {}
+        for _, writer in self.starts:
+            statements = writer.written()
+            at = {one.name: self._at_rest(one) for one in _variables(statements)} | every
+            before = dict(at)
+            run(statements, at)
+            every |= {n: raw for n, raw in at.items() if n not in writer.temporaries and raw != before[n]}
+        if every != self.table.starting:
+            self.table.starting = every
+            self.table.changed.add("initialization")
+
+    def _at_rest(self, var: Var) -> int:
+        """The value of a variable before initialization."""
+        return self.table.at_rest.get(var.name, 0 if var.name in self.table.starting else var.init)
 
     # --- what blocks need ----------------------------------------------------------------------------------
 
@@ -242,7 +294,12 @@ class _Attempt:
         except GrammarError as error:
             raise NotLowered(f"the parameter {text!r}: {error}") from error
         bare = ParsedChart(
-            DrawnChart("", "chart", "MATLAB", _NOTHING, ""), ActionLanguage.MATLAB, StateNode(0, "", "", None), {}, {}, ()
+            DrawnChart("", "chart", "MATLAB", _NOTHING, ""),
+            ActionLanguage.MATLAB,
+            StateNode(0, "", "", None),
+            {},
+            {},
+            (),
         )
         writer = ProgramWriter("parameter")
         view = ChartView(bare, "parameter", self._file)
@@ -339,7 +396,9 @@ class _SystemLowering:
                 components += self._component(node, given)
             except NotLowered as error:
                 where = " ".join(node.block.path.split())
-                raise NotLowered(str(error) if str(error).startswith(where) else f"{where}: {error}") from error
+                raise NotLowered(
+                    str(error) if str(error).startswith(where) else f"{where}: {error}"
+                ) from error
         self._remember()
         return tuple(components), [self._values(node)[0] for node in self.ends]
 
@@ -388,7 +447,11 @@ class _SystemLowering:
 
     def _value(self, port: Port) -> Symbolic:
         node = self._by_id[port[0]]
-        return node.memory if node.memory is not None else node.outputs[port[1] - 1]
+        if node.memory is not None:
+            return node.memory
+        if not 0 < port[1] <= len(node.outputs):
+            raise NotLowered(f"output {port[1]} of {node.block.path} is not there")
+        return node.outputs[port[1] - 1]
 
     def _component(self, node: _BlockNode, given: Sequence[Symbolic]) -> list[Component]:
         block = node.block
@@ -413,7 +476,7 @@ class _SystemLowering:
         name = attempt.name(chart.drawn)
         if chart.drawn.activity_output:
             raise NotLowered("the output of the active child: give it a datum that entry actions set")
-        view = ChartView(chart, name, attempt._file)
+        view = ChartView(chart, name, attempt._file, attempt.table.starting)
         writer = ProgramWriter(name, attempt.most)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
@@ -426,19 +489,20 @@ class _SystemLowering:
             )  # fmt: skip
         else:
             events = self._events(node, chart, writer)
+            made.step(events)
+            statements = writer.written()
+            program = StepProgram(
+                statements, tuple(writer.temporaries.values()), attempt.table.starting, dict(view.fired)
+            )
+            component = view.made(program)
+            attempt.views[name] = view
             if chart.drawn.at_initialization:
-                first = self._writer(chart, view, writer)
+                start = ProgramWriter(name, attempt.most)
+                first = self._writer(chart, view, start)
                 at_rest = [attempt.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
                 self._feed(first, chart, at_rest)
                 first.initialize()
-            if events and chart.drawn.at_initialization:  # its outputs are seen before its first event
-                writer.choose(self._any_event(node, chart), lambda: made.step(events))
-            else:
-                made.step(events)
-            statements = writer.written()
-            program = StepProgram(statements, tuple(writer.temporaries.values()), dict(view.fired))
-            component = view.made(program)
-            attempt.views[name] = view
+                attempt.starts.append((first, start))
         attempt.temporaries |= writer.temporaries.keys()
         for one in chart.root.data.values():
             cells = made.cells[one.ssid]
@@ -451,7 +515,7 @@ class _SystemLowering:
             del events_
             by = self._any_event(node, chart)
             edges = self._edges(node)
-            return [component if chart.drawn.at_initialization else Enabled(by, component), *edges]
+            return [Enabled(by, component), *edges]
         return [component]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
@@ -468,7 +532,10 @@ class _SystemLowering:
             kind = kinds.kind(one.type)
             plain = kind and not kind.startswith("Bus: ")
             fitted = each_converted(value, kind, made.rules, kinds) if plain else value
-            scalars = [made.writer.kept(one.name, s) if not isinstance(s.expr, Var) else s for _, s in leaves(fitted, "")]
+            scalars = [
+                made.writer.kept(one.name, s) if not isinstance(s.expr, Var) else s
+                for _, s in leaves(fitted, "")
+            ]
             made.cells[one.ssid] = filled(fitted, iter(scalars))
         for one in data:
             if one.scope == "input" and one.ssid not in made.cells:
@@ -486,7 +553,9 @@ class _SystemLowering:
         every = self._input_events(chart)
         if not every:
             return None
-        return list(zip((name for name, _ in every), self._edge_conditions(node, [t for _, t in every]), strict=False))
+        return list(
+            zip((name for name, _ in every), self._edge_conditions(node, [t for _, t in every]), strict=False)
+        )
 
     def _any_event(self, node: _BlockNode, chart: ParsedChart) -> Expr:
         every = self._input_events(chart)
@@ -500,16 +569,22 @@ class _SystemLowering:
         name = self._named(node.block)
         made = []
         for n, _ in enumerate(self._control(node)):
-            made.append(tuple(
-                Var(f"{name}.trigger{n + 1}.{what}", boolean, 0, f"the trigger of {node.block.path}", True)
-                for what in ("above", "below", "seen")
-            ))
+            made.append(
+                tuple(
+                    Var(
+                        f"{name}.trigger{n + 1}.{what}", boolean, 0, f"the trigger of {node.block.path}", True
+                    )
+                    for what in ("above", "below", "seen")
+                )
+            )
         return made  # type: ignore[return-value]
 
     def _edge_conditions(self, node: _BlockNode, kinds: Sequence[str]) -> list[Expr]:
         """Whether each signal of a trigger rises or falls through 0; in its first step it does neither."""
         found = []
-        for kind, now, (above, below, seen) in zip(kinds, self._control(node), self._before(node), strict=False):
+        for kind, now, (above, below, seen) in zip(
+            kinds, self._control(node), self._before(node), strict=False
+        ):
             if kind in ("function call", "function-call"):
                 raise NotLowered("an event that is a function call: give the chart a rising edge")
             rises = folded(all_of(seen, ~above, folded(now > 0)))
@@ -603,12 +678,24 @@ def _shared_names(model: DrawnModel) -> set[str]:
     return {name for name in seen if seen.count(name) > 1} | set(ports)
 
 
+def _variables(statements: Sequence[object]) -> Iterator[Var]:
+    from rovercheck.spec_model.lang.action import each_action, expressions
+
+    for one in each_action(statements):  # type: ignore[arg-type]
+        if isinstance(one, Assign):
+            yield one.var
+    for formula in expressions(statements):  # type: ignore[arg-type]
+        yield from variables(formula).values()
+
+
 def _milliseconds(step: str) -> tuple[int, list[Note]]:
     """The length of a step in whole milliseconds, and a note where it is none."""
     try:
         exact = Fraction(step.strip()) * 1000
     except (ValueError, ZeroDivisionError):
-        return 1, [Note("The length of a step is not in the file; times are told in steps of 1 ms.", brief="")]
+        return 1, [
+            Note("The length of a step is not in the file; times are told in steps of 1 ms.", brief="")
+        ]
     if exact.denominator == 1 and exact >= 1:
         return int(exact), []
     said = f"A step lasts {float(exact):g} ms; times are told as if it were whole milliseconds."
@@ -622,4 +709,16 @@ def _same(one: str, other: str) -> bool:
         return False
 
 
-__all__ = ["LoweredModel", "lowered_model", "FALSE", "INTEGERS", "LOGICAL", "is_member", "replace", "truth", "either", "Const"]
+__all__ = [
+    "LoweredModel",
+    "RangeNotKnown",
+    "lowered_model",
+    "FALSE",
+    "INTEGERS",
+    "LOGICAL",
+    "is_member",
+    "replace",
+    "truth",
+    "either",
+    "Const",
+]

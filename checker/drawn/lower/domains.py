@@ -111,7 +111,11 @@ def toml_number(value: Fraction) -> str:
 def toml_key(name: str) -> str:
     """A name as a key of TOML, in quotes where it needs them."""
     plain = name.replace("_", "").replace("-", "")
-    return name if plain.isascii() and plain.isalnum() else '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return (
+        name
+        if plain.isascii() and plain.isalnum()
+        else '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    )
 
 
 def lines_of(domains: Mapping[str, Domain]) -> Iterator[str]:

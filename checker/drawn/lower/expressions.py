@@ -142,7 +142,11 @@ class ExpressionWriter(ABC):
 
     def _does(self, expression: Expression, scope: Scope) -> bool:
         """Whether a function is called in an expression, which may write data."""
-        names = (one.function.name for one in parts(expression) if isinstance(one, Applied) and isinstance(one.function, Name))
+        names = (
+            one.function.name
+            for one in parts(expression)
+            if isinstance(one, Applied) and isinstance(one.function, Name)
+        )
         plain = (one.name for one in parts(expression) if isinstance(one, Name))
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
@@ -247,7 +251,12 @@ class ExpressionWriter(ABC):
             assert isinstance(text, TextLiteral)
             made = self.value(given[0], scope) if name == "cast" else self._called(name, given, scope)[0]
             return [each_converted(made, self.table.kinds.kind(text.value), scope.rules, self.table.kinds)]
-        if name == "isempty" and len(given) == 1 and isinstance(given[0], Name) and given[0].name in scope.kept:
+        if (
+            name == "isempty"
+            and len(given) == 1
+            and isinstance(given[0], Name)
+            and given[0].name in scope.kept
+        ):
             return [truth(self.is_unset(given[0].name, scope))]
         values: list[Symbolic] = []
         for number_, one in enumerate(given):
@@ -301,7 +310,11 @@ class ExpressionWriter(ABC):
 
         low, high = least_and_greatest(at)
         if low < first or high > first + count - 1:
-            self.writer.choose(inside, lambda: None, lambda: self.writer.fault(f"an index, `{at}`, may name no element of {count}"))
+            self.writer.choose(
+                inside,
+                lambda: None,
+                lambda: self.writer.fault(f"an index, `{at}`, may name no element of {count}"),
+            )
 
     def _indexed(self, value: Symbolic, indices: Sequence[Expression], scope: Scope) -> Symbolic:
         rows, columns = size_of(value)
@@ -317,7 +330,10 @@ class ExpressionWriter(ABC):
         made = []
         for r in down:
             for c in across:
-                row = [self._at([every[at * columns + other] for at in range(rows)], r) for other in range(columns)]
+                row = [
+                    self._at([every[at * columns + other] for at in range(rows)], r)
+                    for other in range(columns)
+                ]
                 made.append(self._at(row, c))
         return matrix(made, len(down), len(across), every[0].kind)
 
@@ -342,7 +358,9 @@ class ExpressionWriter(ABC):
         if any(len(row) != width for row in every):
             raise NotLowered("the rows of a matrix are not as long as each other")
         kinds = [one.kind for row in every for one in row]
-        kind = next((k for k in kinds if k not in ("double", LOGICAL, UNTYPED)), kinds[0] if kinds else "double")
+        kind = next(
+            (k for k in kinds if k not in ("double", LOGICAL, UNTYPED)), kinds[0] if kinds else "double"
+        )
         made = SymbolicArray(kind, len(every), width, tuple(one for row in every for one in row))
         if not kinds:
             return made
@@ -360,7 +378,8 @@ class ExpressionWriter(ABC):
             raise NotLowered(f"a range of more than {MOST_ELEMENTS:,} numbers")
         kind = next((k.kind for k in (start, step, stop) if k.kind not in REALS), "double")
         values = [
-            number(kind, start.constant + step.constant * at) for at in range(int(count) + 1 if count >= 0 else 0)
+            number(kind, start.constant + step.constant * at)
+            for at in range(int(count) + 1 if count >= 0 else 0)
         ]
         return matrix(values, 1, len(values), kind) if len(values) != 1 else values[0]
 

@@ -81,9 +81,7 @@ class KindTable:
 
     def member(self, name: str, owner: str = "") -> SymbolicScalar | None:
         """A member of an enumeration; without its owner it must be in one of them only."""
-        found = [
-            one for one in self.enumerations.values() if name in one.members and owner in ("", one.name)
-        ]
+        found = [one for one in self.enumerations.values() if name in one.members and owner in ("", one.name)]
         if len(found) > 1:
             raise NotLowered(f"{name} is in {' and in '.join(one.name for one in found)}: write which")
         if not found:
@@ -98,7 +96,8 @@ class KindTable:
         if kind.startswith(_BUS):
             bus = self.buses[kind.removeprefix(_BUS)]
             inner = {
-                one.name: self.first_value(self.kind(one.type), *sizes(one.dimensions)) for one in bus.elements
+                one.name: self.first_value(self.kind(one.type), *sizes(one.dimensions))
+                for one in bus.elements
             }
             return SymbolicStructure(kind, inner)
         if kind == LOGICAL:

@@ -82,10 +82,15 @@ class ChartWriter(StatementWriter):
             if node.parallel and self.sends:
                 for region in node.children:
                     name = f"{writer.name}.{'.'.join(view.paths[region.ssid])}.active"
-                    self._regions[region.ssid] = Var(name, boolean, 0, "whether the region is active", True)
+                    self._regions[region.ssid] = Var(
+                        name, boolean, table.starting.get(name, 0), "whether the region is active", True
+                    )
             if node.history is not None and node.children and not node.parallel:
                 place = view.location(node)
-                self._last[node.ssid] = Var(f"{place.name}.last", place.domain, 0, "the child left last", True)
+                self._last[node.ssid] = Var(
+                    f"{place.name}.last", place.domain, table.starting.get(f"{place.name}.last", 0),
+                    "the child left last", True,
+                )  # fmt: skip
         self._declare_all()
 
     # --- data ----------------------------------------------------------------------------------------------
@@ -100,7 +105,11 @@ class ChartWriter(StatementWriter):
                     self.cells[one.ssid] = self._declared(one, node, function)
 
     def _declared(self, one: DrawnData, node: StateNode, function: FunctionNode | None = None) -> Symbolic:
-        name = self._name_of(one, node) if function is None else f"{self.writer.name}.{function.signature.name}.{one.name}"
+        name = (
+            self._name_of(one, node)
+            if function is None
+            else f"{self.writer.name}.{function.signature.name}.{one.name}"
+        )
         value = self._initial(one, name)
         if one.scope in ("parameter", "constant"):
             return value
@@ -147,7 +156,10 @@ class ChartWriter(StatementWriter):
             name = next(leaf for leaf, _ in leaves(cells, self._datum_name(one)))
             if not one.initial.strip():
                 self.table.saw(self._datum_name(one), kind, *size_of(value))
-            if cells.kind != kind and self.table.kind_of(self._datum_name(one)) != (cells.kind, *size_of(cells)):
+            if cells.kind != kind and self.table.kind_of(self._datum_name(one)) != (
+                cells.kind,
+                *size_of(cells),
+            ):
                 self.table.changed.add(name)
         if one.scope in ("input", "parameter", "constant"):
             raise NotLowered(f"{one.name} is {one.scope} data, and written to")
@@ -441,7 +453,11 @@ class ChartWriter(StatementWriter):
     def _valid(self, one: TransitionNode, scope: Scope) -> Expr:
         with self._told(one):
             label = one.label
-            events = folded(any_of(*(self._occurs(event, scope) for event in label.events))) if label.events else TRUE
+            events = (
+                folded(any_of(*(self._occurs(event, scope) for event in label.events)))
+                if label.events
+                else TRUE
+            )
             if label.guard is None or (isinstance(events, Const) and not events.value):
                 self._sure = isinstance(events, Const)
                 return events
@@ -650,7 +666,9 @@ class ChartWriter(StatementWriter):
         if one is None:
             raise NotLowered("changes are seen of a datum: name one")
         watched = self.table.watched.setdefault(self.writer.name, {})
-        name = one.name if one.name not in watched or watched[one.name] == one.ssid else f"{one.name}_{one.ssid}"
+        name = (
+            one.name if one.name not in watched or watched[one.name] == one.ssid else f"{one.name}_{one.ssid}"
+        )
         if name not in watched:
             watched[name] = one.ssid
             self.table.changed.add(f"{self.writer.name}.{name}")
@@ -762,7 +780,9 @@ class ChartWriter(StatementWriter):
 
     def _reset(self, one: DrawnData, name: str) -> None:
         if one.scope not in ("constant", "parameter"):
-            pairs = zip(leaves(self.cells[one.ssid], name), leaves(self._initial(one, name), name), strict=True)
+            pairs = zip(
+                leaves(self.cells[one.ssid], name), leaves(self._initial(one, name), name), strict=True
+            )
             for (_, cell), (_, value) in pairs:
                 self.table.write(self.writer, cell, value.expr)
 

@@ -232,7 +232,11 @@ class ProgramWriter:
                 self._grow(1)
 
     def _merged(
-        self, one: dict[str, Symbolic], other: dict[str, Symbolic], first: list[Statement], second: list[Statement]
+        self,
+        one: dict[str, Symbolic],
+        other: dict[str, Symbolic],
+        first: list[Statement],
+        second: list[Statement],
     ) -> dict[str, Symbolic]:
         """The variables of functions after either of two parts, at the end of which they are brought together."""
         found = {**other, **one}
@@ -260,7 +264,9 @@ class ProgramWriter:
 
     def kept(self, name: str, value: SymbolicScalar) -> SymbolicScalar:
         """A value as it is now, whatever is assigned later."""
-        if isinstance(value.expr, Const) or (isinstance(value.expr, Var) and value.expr.name in self.temporaries):
+        if isinstance(value.expr, Const) or (
+            isinstance(value.expr, Var) and value.expr.name in self.temporaries
+        ):
             return value
         var = self.temporary(name, domain_of(value.expr))
         self._rows.append(Assign(var, in_steps(value.expr, var)))

@@ -22,7 +22,13 @@ from rovercheck.checker.drawn.grammar.actions import (
 )
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperator, Expression, Indexed, Member, Name
-from rovercheck.checker.drawn.lower.arithmetic import IntegerRules, as_number, binary, converted, each_converted
+from rovercheck.checker.drawn.lower.arithmetic import (
+    IntegerRules,
+    as_number,
+    binary,
+    converted,
+    each_converted,
+)
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
 from rovercheck.checker.drawn.lower.names import Scope, datum_in
@@ -68,7 +74,9 @@ class StatementWriter(ExpressionWriter):
         """Call a MATLAB function."""
         signature = function.signature
         if len(arguments) > len(signature.inputs):
-            raise NotLowered(f"{signature.name} takes {len(signature.inputs)} values, and {len(arguments)} are given")
+            raise NotLowered(
+                f"{signature.name} takes {len(signature.inputs)} values, and {len(arguments)} are given"
+            )
         if signature.name in scope.calls:
             raise NotLowered(f"{signature.name} calls itself: write a loop")
         key = ">".join((*scope.calls, signature.name))
@@ -83,7 +91,11 @@ class StatementWriter(ExpressionWriter):
                 self._local(name, value, own)
         with self.writer.until(f"{signature.name}_returned") as returned:
             self.run(function.body, replace(own, returned=returned))
-        found = [self.writer.locals[f"{key}:{name}"] for name in signature.outputs if f"{key}:{name}" in self.writer.locals]
+        found = [
+            self.writer.locals[f"{key}:{name}"]
+            for name in signature.outputs
+            if f"{key}:{name}" in self.writer.locals
+        ]
         for name in [one for one in self.writer.locals if one.startswith(f"{key}:")]:
             del self.writer.locals[name]
         return found
@@ -185,7 +197,9 @@ class StatementWriter(ExpressionWriter):
         if not most or not few:
             turns = MOST_TURNS if not most else self.table.turns
             self.table.met |= {"turns"} if most else set()
-            self.writer.choose(condition, lambda: self.writer.fault(f"a loop may make more than {turns:,} turns"))
+            self.writer.choose(
+                condition, lambda: self.writer.fault(f"a loop may make more than {turns:,} turns")
+            )
             return
 
         def turn() -> None:
@@ -198,7 +212,11 @@ class StatementWriter(ExpressionWriter):
     # --- assignments ---------------------------------------------------------------------------------------
 
     def _assign(
-        self, targets: Sequence[Expression | None], value: Expression, sign: BinaryOperator | None, scope: Scope
+        self,
+        targets: Sequence[Expression | None],
+        value: Expression,
+        sign: BinaryOperator | None,
+        scope: Scope,
     ) -> None:
         if len(targets) == 1 and targets[0] is not None:
             new = self.value(value, scope)
@@ -231,7 +249,9 @@ class StatementWriter(ExpressionWriter):
                 first = self.first_index(of, scope)
                 self.check_index(at, first, len(flat(whole)))
                 new = single_of(value)
-                made = [self._if_at(one, folded(at == first + n), new, scope) for n, one in enumerate(flat(whole))]
+                made = [
+                    self._if_at(one, folded(at == first + n), new, scope) for n, one in enumerate(flat(whole))
+                ]
                 self._write(of, matrix(made, *size_of(whole)), scope)
             case _:
                 raise NotLowered("what is assigned to is no datum")
@@ -254,16 +274,22 @@ class StatementWriter(ExpressionWriter):
         made = converted(new, old.kind, scope.rules, self.table.kinds)
         return SymbolicScalar(old.kind, chosen(here, made.expr, old.expr))
 
-    def _with(self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: Scope) -> Symbolic:
+    def _with(
+        self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: Scope
+    ) -> Symbolic:
         """A matrix with other values in some places."""
         rows, columns = size_of(whole)
         found, given = list(flat(whole)), flat(value)
         if len(indices) == 1:
             places = self.index(indices[0], rows * columns, scope)
-            own = [number("double", (at % columns) * rows + at // columns + 1).expr for at in range(len(found))]
+            own = [
+                number("double", (at % columns) * rows + at // columns + 1).expr for at in range(len(found))
+            ]
             pairs = [(place, None) for place in places]
         else:
-            down, across = (self.index(i, most, scope) for i, most in zip(indices, (rows, columns), strict=True))
+            down, across = (
+                self.index(i, most, scope) for i, most in zip(indices, (rows, columns), strict=True)
+            )
             pairs = [(r, c) for r in down for c in across]  # type: ignore[misc]
             own = []
         if len(given) not in (1, len(pairs)):
@@ -311,7 +337,11 @@ class StatementWriter(ExpressionWriter):
         """A variable of a function: each assignment makes a new version of it."""
         key = f"{scope.function}:{name}"
         old = self.writer.locals.get(key)
-        if old is not None and (old.kind, size_of(old)) != (value.kind, size_of(value)) and old.kind != "two types":
+        if (
+            old is not None
+            and (old.kind, size_of(old)) != (value.kind, size_of(value))
+            and old.kind != "two types"
+        ):
             if not isinstance(old, SymbolicStructure) and UNTYPED not in (old.kind, value.kind):
                 raise NotLowered(f"{name} is of {old.kind} first, and of {value.kind} then: give each a name")
         made = [self.writer.kept(name, one) for _, one in leaves(value, "")]

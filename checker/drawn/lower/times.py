@@ -155,7 +155,14 @@ def compared_limit(
     expression: Expression, value: Callable[[Expression], Expr], seconds: Callable[[str], Fraction]
 ) -> tuple[Applied, int] | None:
     """A count that is compared with a constant, and up to how many steps it matters then."""
-    if not isinstance(expression, BinaryOperation) or expression.operator not in ("<", "<=", ">", ">=", "==", "!="):
+    if not isinstance(expression, BinaryOperation) or expression.operator not in (
+        "<",
+        "<=",
+        ">",
+        ">=",
+        "==",
+        "!=",
+    ):
         return None
     for one, other in ((expression.left, expression.right), (expression.right, expression.left)):
         match one:

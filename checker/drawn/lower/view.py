@@ -1,8 +1,9 @@
 """A chart as a person sees it: its states, its transitions with their labels, and which of them are active."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from rovercheck.checker.drawn.lower.drawing import figure_of
 from rovercheck.checker.drawn.parsed import JunctionNode, ParsedChart, StateNode, TransitionNode
 from rovercheck.checker.drawn.refused import label_of
 from rovercheck.spec_model.lang.chart import Path, State
@@ -20,12 +21,14 @@ _ODD = re.compile(r"\W+")
 class ChartView:
     """The names of what is in a chart: of its states, of the variables that say which is active."""
 
-    def __init__(self, chart: ParsedChart, name: str, file: str) -> None:
+    def __init__(
+        self, chart: ParsedChart, name: str, file: str, starting: Mapping[str, int] | None = None
+    ) -> None:
         self.chart, self.name_of_chart, self._file = chart, name, file
         self.paths: dict[int, Path] = {0: ()}
         self._names: dict[int, str] = {}
         self._name_all(chart.root, ())
-        self._chart = self.made(StepProgram(()))
+        self._chart = self.made(StepProgram((), starting=starting or {}))
         self.fired: dict[str, FiredTransition] = {}
         self.begun = self._chart.entered
 
@@ -88,6 +91,7 @@ class ChartView:
                 self.paths[node.ssid]: [self._transition(one) for one in node.inner if one.target is not None]
                 for node in root.every() if node.inner
             },
+            figure=figure_of(self.chart, self.paths, _junction),
             text=f"The chart {self.chart.drawn.path}.", place=self._place(0, 0),
         )  # fmt: skip
 

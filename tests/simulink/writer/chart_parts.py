@@ -13,6 +13,7 @@ from tests.simulink.writer.charts import (
     WrittenTransition,
 )
 from tests.simulink.writer.elements import Values, below, made, put
+from tests.simulink.writer.layout import ChartLayout
 
 KINDS = (WrittenState, WrittenData, WrittenEvent, WrittenTransition, WrittenJunction)
 """The order in which elements of one level stand in a file."""
@@ -30,7 +31,7 @@ class ChartXml:
 
     def __init__(self, chart: WrittenChart, id_: int) -> None:
         self.chart, self.id = chart, id_
-        self.seen = 0
+        self.layout = ChartLayout.of(chart)
 
     def element(self) -> Element:
         """The chart with all that is in it."""
@@ -79,10 +80,8 @@ class ChartXml:
         raise TypeError(one)
 
     def _state(self, one: WrittenState, viewer: int) -> Element:
-        self.seen += 1
-        column, row = self.seen % 7, self.seen // 7
         root = _numbered("state", one, {
-            "labelString": one.label, "position": f"[{40 + 150 * column}.25 {40 + 90 * row}.5 110 60]",
+            "labelString": one.label, "position": _numbers(*self.layout.frames[one.ssid]),
             "fontSize": 12, "superState": "SUBCHART" if one.subchart else None, "subviewer": viewer,
         })  # fmt: skip
         if one.subchart and one.type != "FUNC_STATE":
@@ -95,17 +94,21 @@ class ChartXml:
         return root
 
     def _transition(self, one: WrittenTransition, viewer: int) -> Element:
+        start, middle, stop = self.layout.points.get(one.ssid, ((0, 0), (0, 0), (0, 0)))
+        label = _numbers(*self.layout.labels.get(one.ssid, (0, 0)), 60, 16)
         root = _numbered("transition", one, {
-            "labelString": one.label, "labelPosition": "[150 50 60 16]", "fontSize": 12
+            "labelString": one.label, "labelPosition": label, "fontSize": 12
         })  # fmt: skip
-        leaves = (
-            "[0 1 0 0 20 30 0 0]" if one.source is None else f"[2 {-1 if one.inner else 1} 0 0.5 150 70 0 0]"
-        )
-        enters = f"[4 {1 if one.inner and one.target is one.source else -1} 0 0.5 190 70 0 0]"
-        for tag, end, at in (("src", one.source, leaves), ("dst", one.target, enters)):
+        leaves = "0 1 0 0" if one.source is None else f"2 {-1 if one.inner else 1} 0 0.5"
+        enters = f"4 {1 if one.inner and one.target is one.source else -1} 0 0.5"
+        for tag, end, border, (x, y) in (
+            ("src", one.source, leaves, start), ("dst", one.target, enters, stop)
+        ):  # fmt: skip
+            at = f"[{border} {x:g} {y:g} 0 0]"
             below(root, tag, {"SSID": None if end is None else end.ssid, "intersection": at})
+        across, down = sorted((start[0], stop[0])), sorted((start[1], stop[1]))
         put(root, {
-            "midPoint": "[170 70]", "dataLimits": "[150 190 67.6 72.4]", "subviewer": viewer,
+            "midPoint": _numbers(*middle), "dataLimits": _numbers(*across, *down), "subviewer": viewer,
             "drawStyle": "SMART",
         })  # fmt: skip
         below(root, "slide", {"sticky": "BOTH_STICK"})
@@ -116,13 +119,17 @@ class ChartXml:
         return root
 
     def _junction(self, one: WrittenJunction, viewer: int) -> Element:
-        self.seen += 1
+        x, y, across, down = self.layout.frames[one.ssid]
         return _numbered("junction", one, {
             "labelString": "H" if one.history else None,
-            "position": f"[{60 + 31 * self.seen}.5 {45 + 17 * self.seen}.25 7]",
+            "position": _numbers(x + across / 2, y + down / 2, across / 2),
             "subviewer": viewer,
             "type": "HISTORY_JUNCTION" if one.history else "CONNECTIVE_JUNCTION",
         })  # fmt: skip
+
+
+def _numbers(*values: float) -> str:
+    return f"[{' '.join(f'{one:g}' for one in values)}]"
 
 
 def _numbered(tag: str, one: WrittenElement, values: Values) -> Element:

@@ -105,6 +105,8 @@ class WrittenChart:
     inside: Mapping[str, Values] = field(default_factory=dict)
     children: list[WrittenElement] = field(default_factory=list)
     last: int = 0
+    frames: Mapping[int, tuple[float, float, float, float]] = field(default_factory=dict)
+    """Where elements are drawn: left, top, width and height by SSID; others find a place."""
 
     def __post_init__(self) -> None:
         if self.is_function:
