@@ -126,6 +126,19 @@ def test_times_of_the_chart_itself_do_not_go_on(tmp_path: Path) -> None:
     assert both(running(tmp_path, draw), [0, 0]) == [5, 5]
 
 
+def test_every_so_many_events_counts_no_steps(tmp_path: Path) -> None:
+    """``every(2, E)`` counted each step, too."""
+
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        first = c.state("S\ndu: if u == 1, send(E, T); end", order=1)
+        second = c.state(f"T\non every(2, E): {note(1)}", order=2)
+        assert first is not second
+
+    found = both(running(tmp_path, draw, parallel=True), [0, 0, 1, 0, 1, 1, 1])
+    assert found == [0, 0, 0, 0, 1, 1, 11]
+
+
 def test_the_least_of_a_sum_and_a_constant_has_a_range(tmp_path: Path) -> None:
     """The range of a sum that is held between two ends grew without end, and was refused."""
 
