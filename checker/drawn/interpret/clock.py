@@ -147,7 +147,7 @@ class ChartClock:
         if datum is None:
             raise ChartFault("changes are seen of a datum: name one")
         memory = by.memory
-        now = memory.start.get(datum.ssid, memory.values[datum.ssid])  # before the first step there is no start
+        now = memory.start.get(datum.ssid, memory.values[datum.ssid])  # there is no start at initialization
         return now, memory.before.get(datum.ssid)
 
 
