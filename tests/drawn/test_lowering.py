@@ -139,6 +139,22 @@ def test_every_so_many_events_counts_no_steps(tmp_path: Path) -> None:
     assert found == [0, 0, 0, 0, 1, 1, 11]
 
 
+def test_events_that_come_in_are_counted(tmp_path: Path) -> None:
+    """In both readings only events that the chart sends itself were."""
+    model = WrittenModel("one", step="0.1")
+    port, end = model.root.inport("u", 1, OutDataTypeStr="int8"), model.root.outport("y", 1)
+    block, chart = model.root.chart("C")
+    chart.data("log", "output", "uint8")
+    chart.event("UP", "INPUT_EVENT", "EITHER_EDGE_EVENT")
+    first, second = chart.state("A"), chart.state("B\nen: log = uint8(9);")
+    chart.transition(None, first)
+    chart.transition(first, second, "after(2, UP)")
+    model.root.line(port, f"{block}#trigger")
+    model.root.line(block, end)
+    runner = ModelRunner(read_model(model.save(tmp_path / "one.slx")))
+    assert both(runner, [0, 1, 1, 0, 1, 0], "y") == [0, 0, 0, 0, 9, 9]
+
+
 def test_the_least_of_a_sum_and_a_constant_has_a_range(tmp_path: Path) -> None:
     """The range of a sum that is held between two ends grew without end, and was refused."""
 

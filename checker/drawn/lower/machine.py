@@ -240,6 +240,11 @@ class ChartWriter(StatementWriter):
             self._starts[name] = self.writer.kept("start", now)
             del start
 
+    def _note(self, event: str) -> None:
+        """All active states have seen an event once more."""
+        for node in self.chart.root.every():
+            self.times.saw(event, node, self._is_timed(node))
+
     def _is_timed(self, node: StateNode) -> Expr:
         """Whether the times of a state go on: those of the chart itself do not, as it is no state."""
         return FALSE if node.parent is None else self.active(node)
@@ -280,6 +285,8 @@ class ChartWriter(StatementWriter):
 
     def _once(self, event: str) -> None:
         self._stack.append((0, event))
+        if event:
+            self._note(event)
         if self._flows_only:
             self._flow()
         elif self.chart.drawn.at_initialization:
@@ -735,8 +742,7 @@ class ChartWriter(StatementWriter):
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         def answer() -> None:
-            for node in self.chart.root.every():
-                self.times.saw(name, node, self._is_timed(node))
+            self._note(name)
             if receiver is None:
                 if self._stack.count((0, name)) >= self.table.nested:
                     self.table.met.add("nested")
