@@ -75,12 +75,16 @@ class _Level:
 class RandomChart:
     """Draws into one chart."""
 
-    def __init__(self, chart: WrittenChart, random: Random, input_events: Sequence[str]) -> None:
+    def __init__(
+        self, chart: WrittenChart, random: Random, input_events: Sequence[str], small: bool = False
+    ) -> None:
         self.chart, self.random = chart, random
         kinds = {name: random.choice(WHOLE) for name in ("a", "b", "g", "h")}
         self.texts = Texts(random, chart.language, kinds, input_events=list(input_events))
         self.texts.members, self.texts.array = random.random() < 0.4, random.random() < 0.4
-        self.names, self.loops, self.most = 0, 1, random.choice((3, 5, 5, 8))
+        self.names, self.loops = 0, 1
+        self.most = random.choice((1, 2, 3, 4) if small else (3, 5, 5, 8))
+        self.texts.sends = 1 if small else 2
 
     def draw(self) -> None:
         """Everything: data, states, functions, transitions."""
@@ -280,8 +284,8 @@ class RandomChart:
         self.texts.functions.append("flow")
 
 
-def random_model(seed: int, folder: Path) -> DrawnModel:
-    """The model of a seed, written as a package and read again."""
+def random_model(seed: int, folder: Path, small: bool = False) -> DrawnModel:
+    """The model of a seed, written as a package and read again; a small one has few states."""
     random = Random(seed)
     model = WrittenModel("one", step="0.1")
     ports = {
@@ -298,7 +302,7 @@ def random_model(seed: int, folder: Path) -> DrawnModel:
     events = {"UP": "RISING_EDGE_EVENT", "ANY": "EITHER_EDGE_EVENT"} if random.random() < 0.2 else {}
     if random.random() < 0.3:
         events = {name: "FALLING_EDGE_EVENT" for name in events}
-    drawing = RandomChart(chart, random, list(events))
+    drawing = RandomChart(chart, random, list(events), small)
     for name, trigger in events.items():
         chart.event(name, "INPUT_EVENT", trigger)
     drawing.draw()
