@@ -155,6 +155,19 @@ def test_events_that_come_in_are_counted(tmp_path: Path) -> None:
     assert both(runner, [0, 1, 1, 0, 1, 0], "y") == [0, 0, 0, 0, 9, 9]
 
 
+def test_bits_of_signed_numbers_stay_in_their_type(tmp_path: Path) -> None:
+    """Bits that were joined twice were refused: they might lie outside the type."""
+
+    def draw(c: WrittenChart) -> None:
+        c.data("g", "local", "int8")
+        c.transition(None, c.state("A\ndu: g = u; log = ((g ^ 5) | 2) & 127; y = (g | 1) ^ 3;"))
+
+    outs = {"log": "int8", "y": "int8"}
+    runner = running(tmp_path, draw, {"u": "int8"}, outs, language="C with bit operations")
+    rows: list[float] = [0, 9, -9, -1, 6]
+    assert both(runner, rows, "y") == [0, (9 | 1) ^ 3, (-9 | 1) ^ 3, (-1 | 1) ^ 3, (6 | 1) ^ 3]
+
+
 def test_the_least_of_a_sum_and_a_constant_has_a_range(tmp_path: Path) -> None:
     """The range of a sum that is held between two ends grew without end, and was refused."""
 

@@ -15,7 +15,7 @@ from tests.profiles import full
 ROWS = 60
 PARTS = 4
 """Seeds are shared out among so many tests, which may run side by side."""
-SMALL, LARGE, DIAGRAMS = (600, 400, 400) if full() else (50, 8, 40)
+SMALL, LARGE, DIAGRAMS = (600, 400, 400) if full() else (40, 8, 40)
 
 
 def small_model(seed: int, folder: Path) -> DrawnModel:

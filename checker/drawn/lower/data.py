@@ -162,8 +162,8 @@ class DataTable:
         if "nested" in self.met and self.nested > 1:
             self.nested -= 1
             return True
-        if "visits" in self.met and self.visits > 4:
-            self.visits = 4
+        if "visits" in self.met and self.visits > 6:
+            self.visits = 6
             return True
         if "turns" in self.met and self.turns > 8:
             self.turns = 8
