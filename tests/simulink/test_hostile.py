@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.simulink import blocks, package, xml
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.xml import parsed
@@ -93,8 +94,8 @@ def test_states_in_each_other_are_told_at_any_depth_that_is_read(
     text = "".join(start.format(number) for number in range(1, states + 1)) + "</Children></state>" * states
     path = package_in(tmp_path, lamp(chart=f'<chart id="22"><Children>{text}</Children></chart>'))
     assert len(list(read_model(path).charts[0].content.every_state())) == states
-    assert run(["import", str(path)]) == 0
-    assert run(["import", str(path), "--json"]) == 0
+    assert run(["import", str(path)]) == Exit.INCONCLUSIVE  # its output comes from nowhere
+    assert run(["import", str(path), "--json"]) == Exit.INCONCLUSIVE
     assert capsys.readouterr().err == ""
 
 
@@ -120,12 +121,12 @@ def test_systems_in_each_other_are_read_up_to_a_bound(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = package_in(tmp_path, chain(blocks.MOST_LEVELS - 2, ""))
-    assert run(["import", str(path), "--json"]) == 0
+    assert run(["import", str(path), "--json"]) in (Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
     inline = "<System>" + block(1, "") + "</System>"
     for number in range(blocks.MOST_LEVELS - 1):
         inline = f"<System>{block(number, inline)}</System>"
     told = f"no more than {blocks.MOST_LEVELS} systems in each other are read"
-    assert run(["import", str(package_in(tmp_path, lamp(root=inline))), "--json"]) == 0
+    assert run(["import", str(package_in(tmp_path, lamp(root=inline))), "--json"]) in (Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
     assert capsys.readouterr().err == ""
     assert told in refused_parts(lamp(root=f"<System>{block(1, inline)}{block(2, '')}</System>"), tmp_path)
     assert told in refused_parts(chain(1000, ""), tmp_path)

@@ -45,7 +45,10 @@ class ModelRunner:
         self._top = _System(model.system, self)
         root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
         self._inports = [root[number] for number in sorted(root)]
-        ends = {number_of(one): one for one in model.system.blocks if one.kind == "Outport"}
+        every = [one for one in model.system.blocks if one.kind == "Outport"]
+        ends = {number_of(one): one for one in every}
+        if len(ends) < len(every):
+            raise ChartFault("two Outports have one number: give each its own")
         self._outports = [ends[number] for number in sorted(ends)]
         self._top.initialize([self._at_rest(port) for port in self._inports])
 
@@ -244,8 +247,8 @@ class _System:
                 raise ChartFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
         found = [self._values(node)[0] for node in self._ends]
         delays = [node for node in self._nodes if node.block.kind in DELAYS]
-        for node, [value] in [(node, self._values(node)) for node in delays]:
-            node.memory = value
+        for node, values in [(node, self._values(node)) for node in delays]:
+            [node.memory] = values or [double(0)]
         return found
 
     def _executed(self, node: _Node, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:

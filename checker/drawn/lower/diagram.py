@@ -400,7 +400,7 @@ class _SystemLowering:
                     str(error) if str(error).startswith(where) else f"{where}: {error}"
                 ) from error
         self._remember()
-        return tuple(components), [self._values(node)[0] for node in self.ends]
+        return tuple(components), [(self._values(node) or [number("double", 0)])[0] for node in self.ends]
 
     def _remembered(self, node: _BlockNode, first: Symbolic) -> Symbolic:
         """The memory of a delay, in the type that was seen to come in."""
@@ -418,7 +418,7 @@ class _SystemLowering:
     def _remember(self) -> None:
         for node in self.nodes:
             if node.memory is not None:
-                [value] = self._values(node)
+                [value] = self._values(node) or [number("double", 0)]
                 name = self._named(node.block)
                 self.attempt.table.saw(
                     name, "double" if value.kind == UNTYPED else value.kind, *size_of(value)
@@ -446,7 +446,9 @@ class _SystemLowering:
         return [number("double", 0) if port is None else self._value(port) for port in node.inputs]
 
     def _value(self, port: Port) -> Symbolic:
-        node = self._by_id[port[0]]
+        node = self._by_id.get(port[0])
+        if node is None:
+            raise NotLowered(f"the block {port[0]}, which feeds it, is not there")
         if node.memory is not None:
             return node.memory
         if not 0 < port[1] <= len(node.outputs):
@@ -464,7 +466,10 @@ class _SystemLowering:
         elif block.kind == "SubSystem" and block.system is not None:
             return self._subsystem(node, block.system)
         elif block.kind in BLOCKS:
-            node.outputs = BLOCKS[block.kind](block, self._values(node), self.attempt.types)
+            try:
+                node.outputs = BLOCKS[block.kind](block, self._values(node), self.attempt.types)
+            except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
+                raise NotLowered("its inputs and parameters do not fit each other") from error
         else:
             raise NotLowered(f"{block.kind} blocks are not known here")
         return []

@@ -271,10 +271,13 @@ class ExpressionWriter(ABC):
         if function is not None:
             return self.call(function, values, scope)
         if name in BUILTINS:
-            return [BUILTINS[name](values, scope.rules, self.table.kinds)]
+            try:
+                return [BUILTINS[name](values, scope.rules, self.table.kinds)]
+            except (ValueError, IndexError) as error:
+                raise NotLowered(f"{name} takes other arguments") from error
         if name in NOTHING:
             return []
-        if name in self.table.kinds.enumerations:
+        if name in self.table.kinds.enumerations and len(values) == 1:
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(f"{name} is no datum, event or function that is known here")

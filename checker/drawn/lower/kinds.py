@@ -105,7 +105,8 @@ class KindTable:
         elif is_member(kind):
             named = self.enumerations[kind.removeprefix(_ENUM)]
             found = self.member(named.default, named.name)
-            assert found is not None
+            if found is None:
+                raise NotLowered(f"{named.name} has no member {named.default}, which is its default")
             one = found
         else:
             one = number(kind, 0)

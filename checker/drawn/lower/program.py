@@ -240,6 +240,11 @@ class ProgramWriter:
     ) -> dict[str, Symbolic]:
         """The variables of functions after either of two parts, at the end of which they are brought together."""
         found = {**other, **one}
+        for part, absent in ((first, other.keys() - one.keys()), (second, one.keys() - other.keys())):
+            for name in absent:  # it means nothing on this way, and has some value
+                for _, leaf in leaves(found[name], name):
+                    if isinstance(leaf.expr, Var):
+                        part.append(Assign(leaf.expr, Const(leaf.expr.init, leaf.expr.sort)))
         for name in one.keys() & other.keys():
             if one[name] is not other[name]:
                 found[name] = self._joined(name, one[name], other[name], first, second)

@@ -34,13 +34,16 @@ class ChartLayout:
             found.frames[ssid] = chart.frames.get(ssid, (x + 40, y + 60, across, down))
         pairs: dict[frozenset[int], int] = {}
         for one in _transitions(chart.children):
+            if any(end is not None and end.ssid not in found.frames for end in (one.source, one.target)):
+                continue  # an end that is drawn nowhere
             ends = frozenset(end.ssid for end in (one.source, one.target) if end is not None)
             turn = pairs[ends] = pairs.get(ends, -1) + 1
             found.points[one.ssid] = found._way(one, turn)
             (x, y), lines = found.points[one.ssid][1], one.label.split("\n")
             wide = max(map(len, lines)) * 6
             level = abs(found.points[one.ssid][0][1] - found.points[one.ssid][2][1]) < LINE
-            found.labels[one.ssid] = (x - wide // 2, y - 4 - LINE * len(lines)) if level else (x + 8, y - 8 + LINE * turn)
+            beside = (x + 8, y - 8 + LINE * turn)
+            found.labels[one.ssid] = (x - wide // 2, y - 4 - LINE * len(lines)) if level else beside
         return found
 
     def _way(self, one: WrittenTransition, turn: int) -> tuple[Point, Point, Point]:
