@@ -147,7 +147,8 @@ class ChartClock:
         if datum is None:
             raise ChartFault("changes are seen of a datum: name one")
         memory = by.memory
-        return memory.start[datum.ssid], memory.before.get(datum.ssid)
+        now = memory.start.get(datum.ssid, memory.values[datum.ssid])  # there is no start at initialization
+        return now, memory.before.get(datum.ssid)
 
 
 def _equal(one: MatlabValue, other: MatlabValue) -> bool:

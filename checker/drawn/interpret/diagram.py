@@ -50,7 +50,7 @@ class ModelRunner:
         if len(ends) < len(every):
             raise ChartFault("two Outports have one number: give each its own")
         self._outports = [ends[number] for number in sorted(ends)]
-        self._top.initialize()
+        self._top.initialize([self._at_rest(port) for port in self._inports])
 
     def inputs(self) -> Iterator[str]:
         """The flat names of all inputs, in the order of their ports."""
@@ -210,13 +210,25 @@ class _System:
                 found.append(self._value(_port(node)))
         return found
 
-    def initialize(self) -> None:
-        """Charts that are so drawn are entered before the first step."""
+    def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
+        """Charts that are so drawn are entered before the first step, with inputs at rest."""
         for node in self._nodes:
             if node.chart is not None and node.chart.chart.drawn.kind == "chart":
+                if node.chart.chart.drawn.at_initialization:
+                    self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
+                node.outputs = _outputs_of(node.chart)
             if node.system is not None:
                 node.system.initialize()
+                node.outputs = node.system.at_rest()
+
+    def _feed_at_rest(self, node: _Node, machine: ChartMachine, inputs: Sequence[MatlabValue]) -> None:
+        """What comes straight from an input of the model has its type already."""
+        data = [one for one in machine.chart.root.data.values() if one.scope == "input"]
+        for one, port in zip(data, node.inputs, strict=False):
+            block = None if port is None else self._by_id[port[0]].block
+            if block is not None and block.kind == "Inport" and number_of(block) <= len(inputs):
+                machine.memory.write(one.ssid, inputs[number_of(block) - 1])
 
     def machines(self) -> Iterator[ChartMachine]:
         """The charts here and in subsystems, in their order of execution."""
@@ -233,11 +245,11 @@ class _System:
                 node.outputs = self._executed(node, inputs)
             except ChartFault as fault:
                 raise ChartFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
-        for node in self._nodes:
-            if node.block.kind in DELAYS:
-                [value] = self._values(node)
-                node.memory = value
-        return [self._values(node)[0] for node in self._ends]
+        found = [self._values(node)[0] for node in self._ends]
+        delays = [node for node in self._nodes if node.block.kind in DELAYS]
+        for node, values in [(node, self._values(node)) for node in delays]:
+            [node.memory] = values or [double(0)]
+        return found
 
     def _executed(self, node: _Node, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
         block = node.block

@@ -90,6 +90,8 @@ class ChartMachine:
                     self.memory.reset(one.ssid)
         for event in events or ("",):
             self._events = [event] if event else []
+            if event:
+                self.clock.saw(event, self.active)
             if self.begun:
                 self._execute_root()
             else:

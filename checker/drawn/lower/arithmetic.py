@@ -372,7 +372,8 @@ def _bitwise(sign: str, one: Expr, other: Expr, kind: str) -> Expr:
     if kind not in INTEGERS and kind not in (UNTYPED, "double"):
         raise NotLowered(f"{sign.removeprefix('bit')} between numbers that are not whole")
     low, high = INTEGERS[kind] if kind in INTEGERS else (0, 2**53 - 1)
-    return _joined_bits(one, other, low, high, _BITS[sign])
+    total = _joined_bits(one, other, low, high, _BITS[sign])
+    return in_range(total, kind, saturates=False) if kind in INTEGERS else total
 
 
 def _joined_bits(one: Expr, other: Expr, low: int, high: int, join: Callable[[Expr, Expr], Expr]) -> Expr:
@@ -390,7 +391,7 @@ def _joined_bits(one: Expr, other: Expr, low: int, high: int, join: Callable[[Ex
         both = folded(join(bit_of(sides[0], place), bit_of(sides[1], place)))
         if not (isinstance(both, Const) and not both.value):
             total = sum_of(total, chosen(both, const(2**place), const(0)))
-    return total if low >= 0 else chosen(folded(total > high), sum_of(total, const(-span)), total)
+    return total
 
 
 def bit_of(expr: Expr, place: int) -> Expr:

@@ -45,7 +45,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.spec_model.lang.domain import Num
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, all_of, any_of, const
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, aligned, all_of, any_of, const
 from rovercheck.spec_model.lang.operators import Op
 
 Arguments = Sequence[Symbolic]
@@ -123,7 +123,8 @@ def _extreme_of(one: Expr, other: Expr, op: Op) -> Expr:
         return one if op is Op.MIN else other
     if most <= low:
         return other if op is Op.MIN else one
-    return chosen(folded(one <= other if op is Op.MIN else one >= other), one, other)
+    (left, right), sort = aligned(op.value, one, other)
+    return folded(Apply(op, (left, right), sort))
 
 
 def _extreme(join: Callable[[Expr, Expr], Expr]) -> Builtin:

@@ -68,6 +68,14 @@ class DataTable:
     """Counters of states, by the state's path and what is counted, with the steps up to which it matters."""
     watched: dict[str, dict[str, int]] = field(default_factory=dict)
     """Of each chart the data whose changes it sees, by name, with their SSIDs."""
+    nested: int = 3
+    """How often one state answers an event within itself, which is more than charts do that end."""
+    visits: int = 16
+    """Times that a path goes through one junction, where a guard may end it."""
+    turns: int = 32
+    """Turns of a loop that may end before each of them."""
+    met: set[str] = field(default_factory=set)
+    """Which of these limits there were in this attempt."""
     starting: dict[str, int] = field(default_factory=dict)
     """Raw values that variables have when the first step begins, where initialization changes them."""
     at_rest: dict[str, int] = field(default_factory=dict)
@@ -146,8 +154,21 @@ class DataTable:
 
     def begin(self) -> None:
         """A new attempt."""
-        self.changed = set()
+        self.changed, self.met = set(), set()
         self.notes = {}
+
+    def shortened(self) -> bool:
+        """Have less of what makes a step long: those in which more happens have no meaning then."""
+        if "nested" in self.met and self.nested > 1:
+            self.nested -= 1
+            return True
+        if "visits" in self.met and self.visits > 6:
+            self.visits = 6
+            return True
+        if "turns" in self.met and self.turns > 8:
+            self.turns = 8
+            return True
+        return False
 
     @property
     def endless(self) -> list[str]:

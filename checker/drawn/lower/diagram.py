@@ -14,7 +14,7 @@ from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import KindTable, is_member, sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.names import Scope
-from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.program import MOST_STATEMENTS, ProgramWriter, TooManyStatements
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     LOGICAL,
@@ -44,15 +44,18 @@ from rovercheck.checker.drawn.records import (
 )
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, Port, Wiring, number_of, wired
 from rovercheck.spec_model.lang.action import Assign
-from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.domain import Domain, boolean
 from rovercheck.spec_model.lang.evaluate import run
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, all_of, any_of
 from rovercheck.spec_model.lang.programmed import StepProgram
 from rovercheck.spec_model.lang.system import Note, System, in_order
+from rovercheck.spec_model.lang.walk import variables
 
 ATTEMPTS = 24
 """Times that a model is lowered until nothing new is learned of its data."""
+MANY_STATEMENTS = 5_000
+"""A step with more is shortened first, if that is possible."""
 
 
 @dataclass(frozen=True)
@@ -96,11 +99,17 @@ def _lowered(model: DrawnModel, file: str, domains: Mapping[str, Domain], step: 
         if parsed.notes:
             raise NotLowered(str(parsed.notes[0]))
     table = DataTable(KindTable.of(model), domains)
-    for attempt in range(ATTEMPTS):
+    most = MANY_STATEMENTS
+    for _ in range(ATTEMPTS):
         table.begin()
-        found = _Attempt(
-            model, file, table, charts, step or model.step, final=attempt == ATTEMPTS - 1
-        ).lowered()
+        try:
+            found = _Attempt(model, file, table, charts, step or model.step, most).lowered()
+        except TooManyStatements as error:
+            if not table.shortened():
+                if most == MOST_STATEMENTS:
+                    raise NotLowered(str(error)) from error
+                most = MOST_STATEMENTS
+            continue
         _refuse_too_fine(table)
         if not table.changed:
             return found
@@ -143,8 +152,9 @@ class _Attempt:
 
     def __init__(
         self, model: DrawnModel, file: str, table: DataTable, charts: Mapping[str, ParsedChart], step: str,
-        final: bool,
+        most: int,
     ) -> None:  # fmt: skip
+        self.most = most
         self.model, self.table, self._charts, self.step, self._file = model, table, charts, step, file
         self.types = BlockTypes(table.kinds, self.value_of)
         self.named = {one.name: one.value for one in model.parameters}
@@ -152,8 +162,14 @@ class _Attempt:
         self.data: dict[str, Expr] = {}
         self.views: dict[str, ChartView] = {}
         self.starts: list[tuple[ChartWriter, ProgramWriter]] = []
+        self.temporaries: set[str] = set()
+        self.memories: dict[str, Var] = {}
+        """What delays remember, by name: that changes when all else is done."""
         self._names = _chart_names(model.charts)
         self._taken = _shared_names(model)
+        self._block_names: dict[str, str] = {}
+        self._data_names = {one.name for chart in model.charts for one in chart.content.data}
+        self._data_names |= {one.name for one in model.system.blocks if one.kind in ("Inport", "Outport")}
         self._missing: list[str] = []
 
     def lowered(self) -> LoweredModel:
@@ -167,17 +183,25 @@ class _Attempt:
         last = [Assign(var, value) for var, value in self._written(outputs)]
         if last:
             components = (*components, Block("Outports", last, text="The outputs of the model."))
+        components = (*components, *top.delays())
         self._initialize()
         shown = {
             name: next((v for v, _ in self._ports if v.name == name), expr) for name, expr in outputs.items()
         }
         notes = tuple(self.table.notes.values())
         step_ms, said = _milliseconds(self.step)
-        system = in_order(
-            plain_name(self.model.name), *components,
-            text=f"The model {self.model.name}, read from {self._file}.",
-            notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
-        )  # fmt: skip
+
+
+        def system_of(*parts: Component) -> System:
+            return in_order(
+                plain_name(self.model.name), *parts,
+                text=f"The model {self.model.name}, read from {self._file}.",
+                notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
+            )  # fmt: skip
+
+        system = system_of(*components)
+        if unwritten := self._unwritten(system, shown):
+            system = system_of(*components, unwritten)
         taken = frozenset(self.table.declared_names)
         return LoweredModel(
             self.model, system, self.inputs, shown, self.data, self.views, notes, taken, self._computes
@@ -219,16 +243,27 @@ class _Attempt:
         """The outputs that are no variables of their names already."""
         self._ports: list[tuple[Var, Expr]] = []
         for name, expr in outputs.items():
-            if isinstance(expr, Var) and expr.name == name:
+            if isinstance(expr, Var) and expr.name == name and name not in self.memories:
                 continue
             from rovercheck.checker.drawn.lower.program import domain_of, in_steps
 
             domain = domain_of(expr)
-            taken = name in self.inputs or name in self.data
+            taken = name in self.inputs or name in self.data or name in self.memories
             var = Var(f"{name} out" if taken else name, domain, domain.low, f"output of {self.model.name}")
             self._ports.append((var, in_steps(expr, var)))
         yield from self._ports
 
+    # --- data that nothing writes ------------------------------------------------------------------------
+
+    def _unwritten(self, system: System, shown: Mapping[str, Expr]) -> Block | None:
+        """The data that nothing writes: they keep their first values, and are no inputs."""
+        given = {one.name for one in self.inputs.values() if isinstance(one, Var)}
+        places = {var.name for chart in system.charts for var in (chart.entered, *chart.locations)}
+        known = [one for one in (*self.data.values(), *shown.values()) if isinstance(one, Var)]
+        every = {one.name: one for one in (*system.inputs.values(), *known)}
+        others = given | system.written.keys() | places | self.temporaries
+        keep = [Assign(var, var) for name, var in every.items() if name not in others]
+        return Block("Unwritten", keep, text="Data that nothing writes.") if keep else None
     # --- what happens before the first step ----------------------------------------------------------------
 
     def _initialize(self) -> None:
@@ -281,6 +316,14 @@ class _Attempt:
         """The name of a chart in the system."""
         return self._names[chart.path]
 
+    def name_of_block(self, block: DrawnBlock, short: str) -> str:
+        """The name of what a block remembers: the short one where nothing else in the model has it."""
+        if block.id not in self._block_names:
+            others = {*self._block_names.values(), *self._data_names, *self._names.values()}
+            named = (short, plain_name(block.path), plain_name(f"{block.path} {block.id}"))
+            self._block_names[block.id] = next(one for one in named if one not in others)
+        return self._block_names[block.id]
+
     def name_of(self, chart: DrawnChart, one: DrawnData, node: StateNode) -> str:
         """The name of a datum of a chart: its own, where nothing else in the model has it."""
         if node.parent is None and one.name not in self._taken:
@@ -300,6 +343,8 @@ class _SystemLowering:
             raise NotLowered(str(fault)) from fault
         self.nodes = [self._node(block) for block in self._wiring.order]
         self._by_id = {node.block.id: node for node in self.nodes}
+        self.remembered: list[tuple[str, Symbolic, Symbolic]] = []
+        """The memories of delays here and in subsystems that run in every step, and what they get."""
         found = [node for node in self.nodes if node.block.kind == "Outport"]
         self.ends = sorted(found, key=lambda node: number_of(node.block))
 
@@ -344,6 +389,8 @@ class _SystemLowering:
             if node.block.kind in DELAYS:
                 first = self.attempt.value_of(node.block.parameters.get("InitialCondition", "0"))
                 node.memory = self._remembered(node, first)
+                leaf_vars = (one.expr for _, one in leaves(node.memory, ""))
+                self.attempt.memories |= {var.name: var for var in leaf_vars if isinstance(var, Var)}
         for node in self.nodes:
             try:
                 components += self._component(node, given)
@@ -352,7 +399,7 @@ class _SystemLowering:
                 raise NotLowered(
                     str(error) if str(error).startswith(where) else f"{where}: {error}"
                 ) from error
-        components += self._delays()
+        self._remember()
         return tuple(components), [(self._values(node) or [number("double", 0)])[0] for node in self.ends]
 
     def _remembered(self, node: _BlockNode, first: Symbolic) -> Symbolic:
@@ -366,22 +413,34 @@ class _SystemLowering:
         return self.attempt.table.declared(name, made, doc=f"what {node.block.path} gives")
 
     def _named(self, block: DrawnBlock) -> str:
-        return plain_name(f"{self._path}_{block.name}")
+        return self.attempt.name_of_block(block, plain_name(f"{self._path}_{block.name}"))
 
-    def _delays(self) -> Iterator[Component]:
-        table = self.attempt.table
+    def _remember(self) -> None:
         for node in self.nodes:
-            if node.memory is None:
-                continue
-            [value] = self._values(node)
-            name = self._named(node.block)
-            table.saw(name, "double" if value.kind == UNTYPED else value.kind, *size_of(value))
-            writer = ProgramWriter(name)
-            pairs = zip(leaves(node.memory, name), leaves(value, name), strict=True)
-            for (_, cell), (_, new) in pairs:
-                made = each_converted(new, cell.kind, IntegerRules(), table.kinds)
-                table.write(writer, cell, single_of(made).expr)
-            yield Block(name, writer.written(), text=f"The delay {node.block.path}.")
+            if node.memory is not None:
+                [value] = self._values(node) or [number("double", 0)]
+                name = self._named(node.block)
+                self.attempt.table.saw(
+                    name, "double" if value.kind == UNTYPED else value.kind, *size_of(value)
+                )
+                self.remembered.append((name, node.memory, value))
+
+    def delays(self) -> list[Component]:
+        """All delays get their new values together, once nothing reads the old ones any more."""
+        table, pairs = self.attempt.table, list[tuple[SymbolicScalar, SymbolicScalar]]()
+        writer = ProgramWriter(plain_name(f"{self._path}_Delays".strip("_")))
+        for name, memory, value in self.remembered:
+            for (_, cell), (_, new) in zip(leaves(memory, name), leaves(value, name), strict=True):
+                made = single_of(each_converted(new, cell.kind, IntegerRules(), table.kinds))
+                reads_other = any(one in self.attempt.memories for one in variables(made.expr))
+                pairs.append((cell, writer.kept("next", made) if reads_other else made))
+        for cell, new in pairs:
+            table.write(writer, cell, new.expr)
+        if not pairs:
+            return []
+        statements = writer.written()
+        temporaries = tuple(writer.temporaries.values())
+        return [Block(writer.name, statements, text="What delays remember.", temporaries=temporaries)]
 
     def _values(self, node: _BlockNode) -> list[Symbolic]:
         return [number("double", 0) if port is None else self._value(port) for port in node.inputs]
@@ -423,7 +482,7 @@ class _SystemLowering:
         if chart.drawn.activity_output:
             raise NotLowered("the output of the active child: give it a datum that entry actions set")
         view = ChartView(chart, name, attempt._file, attempt.table.starting)
-        writer = ProgramWriter(name)
+        writer = ProgramWriter(name, attempt.most)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
         if chart.drawn.kind == "MATLAB function":
@@ -443,16 +502,19 @@ class _SystemLowering:
             component = view.made(program)
             attempt.views[name] = view
             if chart.drawn.at_initialization:
-                start = ProgramWriter(name)
+                start = ProgramWriter(name, attempt.most)
                 first = self._writer(chart, view, start)
                 at_rest = [attempt.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
                 self._feed(first, chart, at_rest)
                 first.initialize()
                 attempt.starts.append((first, start))
+        attempt.temporaries |= writer.temporaries.keys()
         for one in chart.root.data.values():
             cells = made.cells[one.ssid]
             for leaf, cell in leaves(cells, f"{name}.{one.name}"):
-                attempt.data[leaf] = cell.expr
+                at = cell.expr.name if isinstance(cell.expr, Var) else ""
+                if at not in writer.temporaries and at not in attempt.memories:  # else it is another one later
+                    attempt.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
         if events_ := (self._input_events(chart) if chart.drawn.kind != "MATLAB function" else []):
             del events_
@@ -550,6 +612,7 @@ class _SystemLowering:
         components, ends = inner.lowered(self._values(node))
         if not node.control:
             node.outputs = list(ends)
+            self.remembered += inner.remembered
             return list(components)
         for one in system.blocks:
             for name, kind in (("StatesWhenEnabling", "EnablePort"), ("OutputWhenDisabled", "Outport")):
@@ -564,26 +627,34 @@ class _SystemLowering:
             by, after = folded(any_of(*self._edge_conditions(node, [kind] * count))), self._edges(node)
         else:
             raise NotLowered(f"a subsystem that is controlled by {node.control}")
-        held, outputs = self._held(inner, ends)
+        held, outputs = self._held(inner, ends, components)
         node.outputs = outputs
-        return [Enabled(by, *components, *held, name=plain_name(block.name)), *after]
+        inside = (*components, *held, *inner.delays())
+        return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
 
     def _held(
-        self, inner: "_SystemLowering", ends: Sequence[Symbolic]
+        self, inner: "_SystemLowering", ends: Sequence[Symbolic], components: Sequence[Component]
     ) -> tuple[list[Component], list[Symbolic]]:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.attempt.table, list[Symbolic](), list[Component]()
+        written = {name for part in parts(components) for name in part.written}
+        cells_ = (one.expr for _, memory, _ in inner.remembered for _, one in leaves(memory, ""))
+        memories = {var.name: var for var in cells_ if isinstance(var, Var)}
         for end, value in zip(inner.ends, ends, strict=True):
-            if all(
-                isinstance(one.expr, Var) and not self._is_input(one.expr) for _, one in leaves(value, "")
-            ):
+            text = end.block.parameters.get("InitialOutput", "[]").strip()
+            own = (isinstance(one.expr, Var) and one.expr.name in written for _, one in leaves(value, ""))
+            if text == "[]" and all(own):
                 outputs.append(value)
                 continue
             name = inner._named(end.block)
-            text = end.block.parameters.get("InitialOutput", "[]").strip()
             first = table.kinds.first_value(value.kind, *size_of(value))
+            remembered = [memories.get(str(one.expr)) for _, one in leaves(value, "")]
             if text != "[]":
                 first = each_converted(self.attempt.value_of(text), value.kind, IntegerRules(), table.kinds)
+            elif all(one is not None for one in remembered):
+                begun = (Const(var.init, var.sort) for var in remembered if var is not None)
+                kinds = (one.kind for _, one in leaves(value, ""))
+                first = filled(value, map(SymbolicScalar, kinds, begun))
             cells = table.declared(name, first, doc=f"the output {end.block.path}")
             writer = ProgramWriter(name)
             for (_, cell), (_, new) in zip(leaves(cells, name), leaves(value, name), strict=True):
@@ -591,9 +662,6 @@ class _SystemLowering:
             held.append(Block(name, writer.written(), text=f"The output {end.block.path}."))
             outputs.append(cells)
         return held, outputs
-
-    def _is_input(self, var: Var) -> bool:
-        return var.name in self.attempt.inputs
 
 
 _NOTHING = DrawnContent()
@@ -617,7 +685,6 @@ def _shared_names(model: DrawnModel) -> set[str]:
 
 def _variables(statements: Sequence[object]) -> Iterator[Var]:
     from rovercheck.spec_model.lang.action import each_action, expressions
-    from rovercheck.spec_model.lang.walk import variables
 
     for one in each_action(statements):  # type: ignore[arg-type]
         if isinstance(one, Assign):

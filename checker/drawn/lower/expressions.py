@@ -34,6 +34,7 @@ from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import Scope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.lower.symbols import (
     LOGICAL,
     REALS,
@@ -149,12 +150,27 @@ class ExpressionWriter(ABC):
         plain = (one.name for one in parts(expression) if isinstance(one, Name))
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
+    def _is_felt(self, expression: Expression, scope: Scope) -> bool:
+        """Whether it matters that an expression is computed: it may write data, begin a time anew, or be a fault."""
+        return self._does(expression, scope) or any(
+            isinstance(one, Indexed)
+            or (
+                isinstance(one, Applied)
+                and isinstance(one.function, Name)
+                and (one.function.name in COUNTED or self.is_datum(one.function.name, scope))
+            )
+            for one in parts(expression)
+        )
+
     def _short(self, sign: str, left: Expression, right: Expression, scope: Scope) -> Expr:
         """``&&`` and ``||``, of which the right side is computed only where it decides."""
-        one = self.condition(left, scope)
+        return self.decided_by(sign, self.condition(left, scope), right, scope)
+
+    def decided_by(self, sign: str, one: Expr, right: Expression, scope: Scope) -> Expr:
+        """The same with the left side as a formula."""
         if isinstance(one, Const) and bool(one.value) == (sign == "||"):
             return one
-        if not self._does(right, scope):
+        if not self._is_felt(right, scope):
             other = self.condition(right, scope)
             return folded(one & other if sign == "&&" else one | other)
         key = f"{scope.function}:?"

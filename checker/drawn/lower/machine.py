@@ -51,10 +51,6 @@ from rovercheck.spec_model.lang.system import Statement
 
 MOST_VISITS = 1_000
 """Times that a path goes through one junction, where each is sure."""
-FEW_VISITS = 16
-"""Times that it does where a guard may end it."""
-NESTED = 3
-"""Times that one state answers an event within itself, which is more than charts do that end."""
 Path = list[TransitionNode]
 
 
@@ -70,7 +66,7 @@ class ChartWriter(StatementWriter):
         self.rules = IntegerRules(chart.language.name != "MATLAB", chart.drawn.saturates)
         self.times = ChartTimes(chart.drawn.path, step, table, writer)
         self._values_named, self._name_of = named, data_names
-        self._parts: dict[object, list[Statement]] = {}
+        self._parts: dict[object, tuple[list[Statement], int]] = {}
         self._stack: list[tuple[int, str]] = []
         self._most: int | None = None
         self._conditions: dict[str, tuple[StateNode, Callable[[], Expr]]] = {}
@@ -221,12 +217,21 @@ class ChartWriter(StatementWriter):
         self._end_step()
 
     def initialize(self) -> None:
-        """What happens before the first step, if it is so drawn."""
-        self.writer.choose(folded(~self._has_begun), self._first)
+        """What happens before the first step, if it is so drawn; nothing sees it before the chart is executed."""
+
+        def first() -> None:
+            self._stack.append((0, ""))
+            self._first()
+            if self._flows_only:
+                self._flow()
+            self._stack.pop()
+
+        self.writer.choose(folded(~self._has_begun), first)
+        self.writer.known[self.view.begun.name] = Const(1, self.view.begun.sort)
 
     def _begin_step(self) -> None:
         for node in self.chart.root.every():
-            self.times.begin(node, self.active(node))
+            self.times.begin(node, self._is_timed(node))
         if self.chart.drawn.initializes_outputs:
             for one in self.chart.root.data.values():
                 if one.scope == "output":
@@ -234,6 +239,15 @@ class ChartWriter(StatementWriter):
         for name, (start, now) in self._memories().items():
             self._starts[name] = self.writer.kept("start", now)
             del start
+
+    def _note(self, event: str) -> None:
+        """All active states have seen an event once more."""
+        for node in self.chart.root.every():
+            self.times.saw(event, node, self._is_timed(node))
+
+    def _is_timed(self, node: StateNode) -> Expr:
+        """Whether the times of a state go on: those of the chart itself do not, as it is no state."""
+        return FALSE if node.parent is None else self.active(node)
 
     def _memories(self) -> dict[str, tuple[SymbolicScalar, SymbolicScalar]]:
         """The data whose changes are seen: what they were a step before, and what they are."""
@@ -258,7 +272,7 @@ class ChartWriter(StatementWriter):
         for what, (node, condition) in self._conditions.items():
             by_node.setdefault(node.path, {})[what] = condition
         for node in self.chart.root.every():
-            self.times.end(node, self.active(node), by_node.get(node.path, {}))
+            self.times.end(node, self._is_timed(node), by_node.get(node.path, {}))
         for name, (before, _) in self._memories().items():
             if name in self._starts:
                 self.table.write(self.writer, before, self._starts[name].expr)
@@ -271,8 +285,12 @@ class ChartWriter(StatementWriter):
 
     def _once(self, event: str) -> None:
         self._stack.append((0, event))
+        if event:
+            self._note(event)
         if self._flows_only:
             self._flow()
+        elif self.chart.drawn.at_initialization:
+            self._execute_root()
         else:
             self.writer.choose(self._has_begun, self._execute_root, self._first)
         self._stack.pop()
@@ -315,8 +333,9 @@ class ChartWriter(StatementWriter):
     def _execute(self, node: StateNode) -> None:
         """An active state: outer transitions, during and on-event actions, inner transitions, children."""
         event = self._stack[-1][1] if self._stack else ""
-        if self._stack.count((node.ssid, event)) >= NESTED:
-            said = f"{event or 'a step'} may be answered by {node.path} {NESTED} times within itself"
+        if self._stack.count((node.ssid, event)) >= self.table.nested:
+            said = f"{event or 'a step'} may be answered by {node.path} {self.table.nested} times within itself"
+            self.table.met.add("nested")
             self.writer.fault(said)
             return
         key = (node.ssid, event, tuple(sorted(self._stack)) if self.sends else ())
@@ -326,7 +345,7 @@ class ChartWriter(StatementWriter):
             self._parts[key] = self.writer.alone(lambda: self._execution(node, event))
             self._stack.pop()
             self._dropped = dropped
-        self.writer.include(self._parts[key])
+        self.writer.include(*self._parts[key])
 
     def _execution(self, node: StateNode, event: str) -> None:
         for one in node.lineage():
@@ -430,10 +449,11 @@ class ChartWriter(StatementWriter):
             return
         visits = sum(1 for other in path if other.target is one.target)
         sure = one.label.guard is None or self._sure
-        if visits >= (MOST_VISITS if sure else FEW_VISITS):
-            self.writer.fault(
-                f"a path may go through junction {one.target.ssid} of {one.holder.path} for ever"
-            )
+        most = MOST_VISITS if sure else self.table.visits
+        if visits >= most:
+            self.table.met |= set() if sure else {"visits"}
+            where = f"junction {one.target.ssid} of {one.holder.path}"
+            self.writer.fault(f"a path may go through {where} more than {most:,} times")
             return
         self._try(one.target.outgoing, longer, scope, complete, done, in_function)
 
@@ -451,7 +471,7 @@ class ChartWriter(StatementWriter):
             if isinstance(events, Const):
                 made = self.condition(label.guard, scope)
             else:
-                made = folded(events & self.condition(label.guard, scope))
+                made = self.decided_by("&&", events, label.guard, scope)
             self._sure = isinstance(made, Const)
             return made
 
@@ -722,11 +742,11 @@ class ChartWriter(StatementWriter):
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         def answer() -> None:
-            for node in self.chart.root.every():
-                self.times.saw(name, node, self.active(node))
+            self._note(name)
             if receiver is None:
-                if self._stack.count((0, name)) >= NESTED:
-                    self.writer.fault(f"{name} may be sent {NESTED} times within itself")
+                if self._stack.count((0, name)) >= self.table.nested:
+                    self.table.met.add("nested")
+                    self.writer.fault(f"{name} may be sent {self.table.nested} times within itself")
                     return
                 self._stack.append((0, name))
                 dropped, self._dropped = self._dropped, None

@@ -20,7 +20,12 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_o
 from rovercheck.spec_model.lang.programmed import without
 from rovercheck.spec_model.lang.system import Statement
 
+MOST_STATEMENTS = 100_000
 _NEVER = Domain(Num(), (0,))
+
+
+class TooManyStatements(Exception):
+    """The step of a chart is longer than it may be."""
 
 
 class ProgramWriter:
@@ -29,11 +34,12 @@ class ProgramWriter:
     An *end* is a flag of which everything that follows is skipped once it is raised: a state that was left, a
     loop, a function.  What holds it is ``until``.  ``known`` are the values of data that are the same in
     every run at this point; ``locals`` are those of the variables of functions, each version of which is a
-    temporary of its own, so that it has no more values than were assigned to it.
+    temporary of its own, so that it has no more values than were assigned to it.  More assignments than ``most``
+    are refused; those of a part that is used in several places count in each.
     """
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, most: int = MOST_STATEMENTS) -> None:
+        self.name, self._most, self.size = name, most, 0
         self.temporaries: dict[str, Var] = {}
         self.faults: dict[str, Var] = {}
         self._rows: list[Statement] = []
@@ -48,10 +54,19 @@ class ProgramWriter:
     def assign(self, var: Var, value: Expr) -> None:
         """``var := value``."""
         self._rows.append(Assign(var, value))
+        self._grow(1)
         if isinstance(value, Const):
             self.known[var.name] = value
         else:
             self.known.pop(var.name, None)
+
+    def _grow(self, by: int) -> None:
+        self.size += by
+        if self.size > self._most:
+            raise TooManyStatements(
+                f"a step of {self.name} does more than {self._most:,} things: let fewer events be sent while others "
+                "are answered, and loops make fewer turns"
+            )
 
     def read(self, var: Var) -> Expr:
         """The value of a variable at this point."""
@@ -71,6 +86,7 @@ class ProgramWriter:
             number = len(self.faults) + 1
             self.faults[what] = Var(f"{self.name}.fault{number}", _NEVER, 0, what, hidden=True)
         self._rows.append(Assign(self.faults[what], Const(1, Num())))
+        self._grow(1)
 
     # --- choices -------------------------------------------------------------------------------------------
 
@@ -104,6 +120,7 @@ class ProgramWriter:
         self.locals = self._merged(first, self.locals, one, other)
         if one or other:
             self._rows.append(If(condition, tuple(one), tuple(other)))
+            self._grow(1)
         self._skip(first_raised | then_raised, sure=one_ended and other_ended)
 
     def _side(self, write: Callable[[], None]) -> tuple[list[Statement], bool, dict[str, Var]]:
@@ -130,18 +147,26 @@ class ProgramWriter:
         self._rows, self._open = rows, opened
         return first
 
-    def alone(self, write: Callable[[], None]) -> list[Statement]:
-        """The same of a part that is used in several places: nothing is known before it, nor ended by it."""
+    def alone(self, write: Callable[[], None]) -> tuple[list[Statement], int]:
+        """The same of a part that is used in several places: nothing is known before it, nor ended by it.
+
+        The answer says, too, how many assignments it has, which do not count until it is included.
+        """
+        size = self.size
         ends, known, locals_ = self._ends, self.known, self.locals
         self._ends, self.known, self.locals = {}, {}, {}
         made = self.part(write)
         assert not self._ends
         self._ends, self.known, self.locals = ends, known, locals_
-        return made
+        size, self.size = self.size - size, size
+        return made, size
 
-    def include(self, statements: list[Statement], written: frozenset[str] | None = None) -> None:
+    def include(
+        self, statements: list[Statement], size: int, written: frozenset[str] | None = None
+    ) -> None:
         """Write a part that was written alone; what it may write is no longer known."""
         self._rows += statements
+        self._grow(size)
         self.known = {} if written is None else {n: c for n, c in self.known.items() if n not in written}
 
     # --- ends ----------------------------------------------------------------------------------------------
@@ -204,6 +229,7 @@ class ProgramWriter:
             self.locals = self._merged(opened.locals, self.locals, first, inside)
             if inside or first:
                 self._rows.append(If(opened.condition, tuple(first), tuple(inside)))
+                self._grow(1)
 
     def _merged(
         self,
@@ -249,6 +275,7 @@ class ProgramWriter:
             return value
         var = self.temporary(name, domain_of(value.expr))
         self._rows.append(Assign(var, in_steps(value.expr, var)))
+        self._grow(1)
         return SymbolicScalar(value.kind, var)
 
     def written(self) -> tuple[Statement, ...]:
@@ -310,4 +337,4 @@ def _alike(one: dict[str, Const], other: dict[str, Const]) -> dict[str, Const]:
     }
 
 
-__all__ = ["ProgramWriter"]
+__all__ = ["MOST_STATEMENTS", "ProgramWriter", "TooManyStatements"]

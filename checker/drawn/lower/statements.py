@@ -55,8 +55,6 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, any_of
 
 MOST_TURNS = 1_000
 """Turns of a loop that are written one after the other, where each is sure to be made."""
-FEW_TURNS = 32
-"""Turns of a loop that may end before each of them."""
 
 
 class StatementWriter(ExpressionWriter):
@@ -130,7 +128,7 @@ class StatementWriter(ExpressionWriter):
                 self._for(one, scope)
             case WhileLoop():
                 with self.writer.until("loop_left") as broken:
-                    self._turn(one, replace(scope, broken=broken), MOST_TURNS, FEW_TURNS)
+                    self._turn(one, replace(scope, broken=broken), MOST_TURNS, self.table.turns)
             case BreakStatement():
                 self._end(scope.broken, "break", scope)
             case ContinueStatement():
@@ -197,7 +195,8 @@ class StatementWriter(ExpressionWriter):
         if isinstance(condition, Const) and not condition.value or self.writer.dead:
             return
         if not most or not few:
-            turns = MOST_TURNS if not most else FEW_TURNS
+            turns = MOST_TURNS if not most else self.table.turns
+            self.table.met |= {"turns"} if most else set()
             self.writer.choose(
                 condition, lambda: self.writer.fault(f"a loop may make more than {turns:,} turns")
             )

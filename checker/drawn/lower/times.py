@@ -73,7 +73,7 @@ class ChartTimes:
     def begin(self, node: StateNode, active: Expr) -> None:
         """A step begins: a state that is active has been so for one more."""
         for what, var in self.of(node):
-            if what.startswith(("steps", "every")):
+            if what == "steps" or (what.startswith("every") and what.count(" ") == 1):  # else of an event
                 self._writer.assign(var, chosen(active, self._more(what, var), const(0)))
 
     @staticmethod
