@@ -38,12 +38,14 @@ def test_the_systems_of_the_examples_give_what_their_simulations_by_hand_give(sa
             assert found == {name: given[name] for name in found}, row["step"]
 
 
-def test_a_model_is_checked_with_the_properties_beside_it() -> None:
+def test_a_model_is_checked_with_the_properties_beside_it(tmp_path: Path) -> None:
     found = check(str(package_of("2_microwave")))
     assert {one.result.property.id: type(one.result.verdict) for one in found} == {
         "OVEN-1": Proved, "OVEN-2": Proved, "OVEN-3": Violated, "OVEN-4": Proved, "OVEN-5": Proved
     }  # fmt: skip
-    page = trace(str(package_of("2_microwave")), "OVEN-3").text("html")
+    run_ = tmp_path / "run.html"
+    trace(str(package_of("2_microwave")), "OVEN-3").write(str(run_))
+    page = run_.read_text(encoding="utf-8")
     assert 'data-state="Cooking.Heat"' in page and "[minutes &gt; 0]" in page
 
 
