@@ -12,6 +12,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import counted, out, text_width
 from rovercheck.checker.commands.shared.tables import listed
 from rovercheck.checker.commands.shared.text_wrap import filled
+from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.records import DrawnChart, DrawnModel
 from rovercheck.checker.drawn.refused import DrawingNote, notes_of
@@ -27,7 +28,7 @@ _TIMERS = re.compile(r"\b(?:after|before|at|every|temporalCount|elapsed|duration
 
 def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: bool) -> Exit:
     """Read a model, and say what is in it.  Raises ``ModelError`` for a file that cannot be read."""
-    model = read_model(path, beside)
+    model = read_model(path, [*read_domains(domains_path(path)).beside, *beside])
     notes = list(notes_of(model))
     for chart in map(parsed_chart, model.charts):
         notes += [*chart.notes, *unknown_names(chart, model.enumerations)]

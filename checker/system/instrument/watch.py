@@ -119,12 +119,14 @@ class _Goals:
 def _programmed(chart: ProgrammedChart, goals: _Goals) -> Chart:
     """An imported chart: a goal for each path that it may take, and none for sides of conditions."""
     raised: dict[str, tuple[Action, ...]] = {}
-    for number, (marker, path) in enumerate(chart.program.fired.items(), start=1):
-        start = ".".join(path.source) if path.order else "default"
-        label = f" {path.label}" if path.label else ""
-        event = f", with {path.event}" if path.event else ""
-        text = f"{start} -> {'.'.join(path.target)}{label}{event}"
-        raised[marker] = goals.goal(GoalKind.TRANSITIONS, str(number), text)
+    known: dict[object, tuple[Action, ...]] = {}
+    for marker, path in chart.program.fired.items():
+        drawn = (path.source, path.target, path.order, path.label, path.place)  # with whatever event
+        if drawn not in known:
+            start = ".".join(path.source) if path.order else "default"
+            text = f"{start} -> {'.'.join(path.target)}{f' {path.label}' if path.label else ''}"
+            known[drawn] = goals.goal(GoalKind.TRANSITIONS, str(len(known) + 1), text)
+        raised[marker] = known[drawn]
 
     def raising(statements: Program) -> Program:
         out: list[Statement] = []

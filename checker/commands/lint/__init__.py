@@ -1,0 +1,32 @@
+"""The verb ``lint``: what in charts can never happen."""
+
+from pathlib import Path
+
+import click
+
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import modelling, quietly
+
+EXAMPLES = """\b
+Examples:
+  rovercheck lint --system relay
+  rovercheck lint --model examples/simulink/2_microwave/microwave.slx
+"""
+
+
+@click.command(short_help="Find states and transitions that can never happen.", epilog=EXAMPLES)
+@click.option(
+    "--system", "systems", multiple=True, metavar="NAME", help="Only this system; may be repeated."
+)
+@click.option("--seconds", type=click.FloatRange(0, min_open=True), help="For the searches of a system.")
+@click.option("--json", "as_json", is_flag=True, help="What was found, as JSON.")
+@modelling
+@quietly
+def lint(systems: tuple[str, ...], seconds: float | None, as_json: bool, model: Path | None) -> Exit:
+    """Find states of charts that are never active, and transitions that are never taken, without a property.
+
+    Exit code 1 if there is one, 2 if something could not be decided.
+    """
+    from rovercheck.checker.commands.lint.run import lint as run
+
+    return run(systems, seconds, as_json, model)
