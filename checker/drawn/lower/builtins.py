@@ -4,28 +4,27 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 from math import isqrt
 
-from rovercheck.checker.drawn.lower.arithmetic import (
+from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of
+from rovercheck.checker.drawn.lower.bits import bit_of, complement, shifted
+from rovercheck.checker.drawn.lower.conversions import (
     IntegerRules,
     as_condition,
     as_number,
-    binary,
-    bit_of,
+    each_converted,
+    in_range,
+)
+from rovercheck.checker.drawn.lower.kinds import KindTable
+from rovercheck.checker.drawn.lower.rounding import (
     by_cases,
     ceiling_of,
-    complement,
-    each_converted,
     floor_of,
-    in_range,
     modulo,
     nearest_of,
     negated,
     remainder,
-    scalar_of,
-    shifted,
     sum_of,
     toward_zero,
 )
-from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     LOGICAL,

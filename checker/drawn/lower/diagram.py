@@ -8,8 +8,8 @@ from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Name
-from rovercheck.checker.drawn.lower.arithmetic import IntegerRules, as_number, each_converted
 from rovercheck.checker.drawn.lower.blocks import BLOCKS, BlockTypes, either
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import KindTable, is_member, sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
@@ -191,7 +191,6 @@ class _Attempt:
         notes = tuple(self.table.notes.values())
         step_ms, said = _milliseconds(self.step)
 
-
         def system_of(*parts: Component) -> System:
             return in_order(
                 plain_name(self.model.name), *parts,
@@ -264,6 +263,7 @@ class _Attempt:
         others = given | system.written.keys() | places | self.temporaries
         keep = [Assign(var, var) for name, var in every.items() if name not in others]
         return Block("Unwritten", keep, text="Data that nothing writes.") if keep else None
+
     # --- what happens before the first step ----------------------------------------------------------------
 
     def _initialize(self) -> None:
@@ -513,7 +513,9 @@ class _SystemLowering:
             cells = made.cells[one.ssid]
             for leaf, cell in leaves(cells, f"{name}.{one.name}"):
                 at = cell.expr.name if isinstance(cell.expr, Var) else ""
-                if at not in writer.temporaries and at not in attempt.memories:  # else it is another one later
+                if (
+                    at not in writer.temporaries and at not in attempt.memories
+                ):  # else it is another one later
                     attempt.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
         if events_ := (self._input_events(chart) if chart.drawn.kind != "MATLAB function" else []):
@@ -715,15 +717,15 @@ def _same(one: str, other: str) -> bool:
 
 
 __all__ = [
-    "LoweredModel",
-    "RangeNotKnown",
-    "lowered_model",
     "FALSE",
     "INTEGERS",
     "LOGICAL",
+    "Const",
+    "LoweredModel",
+    "RangeNotKnown",
+    "either",
     "is_member",
+    "lowered_model",
     "replace",
     "truth",
-    "either",
-    "Const",
 ]

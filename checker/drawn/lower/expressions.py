@@ -22,19 +22,12 @@ from rovercheck.checker.drawn.grammar.syntax import (
     WholeRange,
     parts,
 )
-from rovercheck.checker.drawn.lower.arithmetic import (
-    IntegerRules,
-    as_number,
-    binary,
-    condition_of,
-    each_converted,
-    unary,
-)
+from rovercheck.checker.drawn.lower.arithmetic import binary, unary
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import Scope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.lower.symbols import (
     LOGICAL,
     REALS,
@@ -55,6 +48,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     size_of,
     truth,
 )
+from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.parsed import FunctionNode
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var
 

@@ -5,15 +5,14 @@ The rules are numbered in the user's guide of Stateflow by their subjects: order
 leaving and entering, events, early return.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from collections.abc import Iterator
 
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperation, Expression, Member, Name
-from rovercheck.checker.drawn.lower.arithmetic import IntegerRules, as_number, each_converted
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.names import Scope, datum_in, state_in, words
@@ -334,7 +333,9 @@ class ChartWriter(StatementWriter):
         """An active state: outer transitions, during and on-event actions, inner transitions, children."""
         event = self._stack[-1][1] if self._stack else ""
         if self._stack.count((node.ssid, event)) >= self.table.nested:
-            said = f"{event or 'a step'} may be answered by {node.path} {self.table.nested} times within itself"
+            said = (
+                f"{event or 'a step'} may be answered by {node.path} {self.table.nested} times within itself"
+            )
             self.table.met.add("nested")
             self.writer.fault(said)
             return
@@ -831,4 +832,4 @@ def _chain(around: StateNode, target: StateNode | JunctionNode) -> list[StateNod
     return chain[:at][::-1]
 
 
-__all__ = ["ChartWriter", "LOGICAL", "chosen", "filled", "flat"]
+__all__ = ["LOGICAL", "ChartWriter", "chosen", "filled", "flat"]

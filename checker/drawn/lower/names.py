@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
-from rovercheck.checker.drawn.lower.arithmetic import IntegerRules
+from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
 from rovercheck.checker.drawn.records import DrawnData

@@ -161,9 +161,7 @@ class ProgramWriter:
         size, self.size = self.size - size, size
         return made, size
 
-    def include(
-        self, statements: list[Statement], size: int, written: frozenset[str] | None = None
-    ) -> None:
+    def include(self, statements: list[Statement], size: int, written: frozenset[str] | None = None) -> None:
         """Write a part that was written alone; what it may write is no longer known."""
         self._rows += statements
         self._grow(size)

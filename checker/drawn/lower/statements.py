@@ -22,13 +22,8 @@ from rovercheck.checker.drawn.grammar.actions import (
 )
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperator, Expression, Indexed, Member, Name
-from rovercheck.checker.drawn.lower.arithmetic import (
-    IntegerRules,
-    as_number,
-    binary,
-    converted,
-    each_converted,
-)
+from rovercheck.checker.drawn.lower.arithmetic import binary
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, converted, each_converted
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
 from rovercheck.checker.drawn.lower.names import Scope, datum_in
@@ -192,7 +187,7 @@ class StatementWriter(ExpressionWriter):
         condition = self.condition(one.condition, scope)
         if isinstance(condition, Const):
             few += 1
-        if isinstance(condition, Const) and not condition.value or self.writer.dead:
+        if (isinstance(condition, Const) and not condition.value) or self.writer.dead:
             return
         if not most or not few:
             turns = MOST_TURNS if not most else self.table.turns

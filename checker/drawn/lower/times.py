@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperation, Expression, Name
-from rovercheck.checker.drawn.lower.arithmetic import as_number
+from rovercheck.checker.drawn.lower.conversions import as_number
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import NotLowered, chosen, folded, least_and_greatest
@@ -86,7 +86,7 @@ class ChartTimes:
     def saw(self, event: str, node: StateNode, active: Expr) -> None:
         """An event was sent: states that are active have seen it once more."""
         for what, var in self.of(node):
-            if what.startswith("every") and what.endswith(f" {event}") or what == f"seen {event}":
+            if (what.startswith("every") and what.endswith(f" {event}")) or what == f"seen {event}":
                 self._writer.assign(var, chosen(active, self._more(what, var), var))
 
     def end(self, node: StateNode, active: Expr, conditions: Mapping[str, Callable[[], Expr]]) -> None:
