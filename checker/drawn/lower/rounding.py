@@ -6,12 +6,7 @@ What a computer rounds in the last digits of a real number is not rounded here.
 from collections.abc import Callable
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.symbols import (
-    NotLowered,
-    chosen,
-    folded,
-    least_and_greatest,
-)
+from rovercheck.checker.drawn.lower.symbols import NotLowered, chosen, folded, least_and_greatest
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, aligned, const, rescale
 from rovercheck.spec_model.lang.lower.ranges import possible
