@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import DomainsFile, domains_path, read_domains
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of

@@ -8,7 +8,7 @@ from time import monotonic
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.interpret.values import ChartFault
-from rovercheck.checker.drawn.lower.diagram import LoweredModel
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.drawn.lower.uses import uses_of
 from rovercheck.spec_model.lang.domain import Num

@@ -6,7 +6,8 @@ from random import Random
 
 from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.lower.diagram import LoweredModel, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel

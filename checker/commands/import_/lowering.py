@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rovercheck.checker.drawn.lower.diagram import RangeNotKnown, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
+from rovercheck.checker.drawn.lower.lowered import RangeNotKnown
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.model.two_readings import compared_readings

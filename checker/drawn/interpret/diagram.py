@@ -21,10 +21,10 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
-from rovercheck.checker.drawn.wiring import DELAYS, Wiring, number_of, wired
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel, DrawnSystem
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.drawn.wiring import DELAYS, Wiring, number_of, wired
 
 Number = int | float
 

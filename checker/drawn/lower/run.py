@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.spec_model.lang.action import expressions
 from rovercheck.spec_model.lang.chart import Block, parts
 from rovercheck.spec_model.lang.domain import Num
