@@ -10,8 +10,8 @@ from rovercheck.checker.compare.tried_runs import RunCoverage
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.chart import Chart, Path, Transition
 from rovercheck.spec_model.lang.expr import Const
-from rovercheck.spec_model.lang.interpret import FiredTransition
 from rovercheck.spec_model.lang.fired_transition import path_label
+from rovercheck.spec_model.lang.interpret import FiredTransition
 
 NEAR_SHARE = Fraction(1, 100)
 """The share of a signal's range within which a value counts as beside a boundary."""

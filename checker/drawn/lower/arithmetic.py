@@ -48,7 +48,7 @@ def binary(sign: str, left: Symbolic, right: Symbolic, rules: IntegerRules) -> S
     rows, columns = size_of(left if isinstance(left, SymbolicArray) else right)
     count = rows * columns
     lefts, rights = (
-        (flat(one) * count)[:count] if size_of(one) == (1, 1) else flat(one) for one in (left, right)
+        tuple(flat(one)) * count if size_of(one) == (1, 1) else flat(one) for one in (left, right)
     )
     made = [scalar_of(sign, one, other, rules) for one, other in zip(lefts, rights, strict=True)]
     return matrix(made, rows, columns)
@@ -145,7 +145,8 @@ def _power(one: Expr, exponent: SymbolicScalar) -> Expr:
     times = exponent.constant
     if times is None or times.denominator != 1 or not 0 <= times <= 16:
         raise NotLowered("a power with another exponent than a constant from 0 to 16: multiply")
-    return reduce(lambda sofar, _: folded(sofar * one), range(int(times)), const(1))
+    first: Expr = const(1)
+    return reduce(lambda sofar, _: folded(sofar * one), range(int(times)), first)
 
 
 def unary(sign: str, value: Symbolic, rules: IntegerRules) -> Symbolic:

@@ -24,7 +24,7 @@ from rovercheck.checker.drawn.grammar.syntax import (
 )
 from rovercheck.checker.drawn.lower.arithmetic import binary, unary
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
-from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, condition_of, each_converted
+from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import Scope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
@@ -38,9 +38,11 @@ from rovercheck.checker.drawn.lower.symbols import (
     SymbolicScalar,
     SymbolicStructure,
     chosen,
+    constant_of,
     filled,
     flat,
     folded,
+    least_and_greatest,
     leaves,
     matrix,
     number,
@@ -93,8 +95,8 @@ class ExpressionWriter(ABC):
                     raise NotLowered("a function that gives nothing stands where a value must")
                 return found[0]
             case Indexed(whole, index):
-                value, at = self._both(whole, index, scope)
-                return self._element(value, as_number(single_of(at)), self.first_index(whole, scope))
+                every, at = self._both(whole, index, scope)
+                return self._element(every, as_number(single_of(at)), self.first_index(whole, scope))
             case UnaryOperation(sign, operand):
                 return unary(sign, self.value(operand, scope), scope.rules)
             case BinaryOperation("&&" | "||" as sign, left, right):
@@ -145,7 +147,7 @@ class ExpressionWriter(ABC):
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
     def _is_felt(self, expression: Expression, scope: Scope) -> bool:
-        """Whether it matters that an expression is computed: it may write data, begin a time anew, or be a fault."""
+        """Whether it matters that it is computed: it may write data, begin a time anew, or be a fault."""
         return self._does(expression, scope) or any(
             isinstance(one, Indexed)
             or (
@@ -297,16 +299,14 @@ class ExpressionWriter(ABC):
 
     def check_index(self, at: Expr, first: int, count: int) -> None:
         """Note the steps in which an index has no element."""
-        inside = folded(folded(at >= first) & folded(at <= first + count - 1))
-        if isinstance(at, Const):
-            whole = at.value * at.sort.resolution  # type: ignore[union-attr]
+        whole = constant_of(at)
+        if whole is not None:
             if whole.denominator != 1 or not first <= whole < first + count:
                 raise NotLowered(f"the index {whole} of {count} values")
             return
-        from rovercheck.checker.drawn.lower.symbols import least_and_greatest
-
         low, high = least_and_greatest(at)
         if low < first or high > first + count - 1:
+            inside = folded(folded(at >= first) & folded(at <= first + count - 1))
             self.writer.choose(
                 inside,
                 lambda: None,
@@ -383,12 +383,13 @@ class ExpressionWriter(ABC):
 
 def _one_of(values: Sequence[SymbolicScalar], at: Expr, first: int) -> SymbolicScalar:
     """The element that an index names; the last one where it names none."""
-    if isinstance(at, Const):
-        return values[int(at.value * at.sort.resolution) - first]  # type: ignore[union-attr]
+    whole = constant_of(at)
+    if whole is not None:
+        return values[int(whole) - first]
     made = values[-1].expr
     for number_, one in reversed(list(enumerate(values[:-1]))):
         made = chosen(folded(at == first + number_), one.expr, made)
     return SymbolicScalar(values[0].kind, made)
 
 
-__all__ = ["ExpressionWriter", "IntegerRules"]
+__all__ = ["ExpressionWriter"]

@@ -34,8 +34,8 @@ class ProgramWriter:
     An *end* is a flag of which everything that follows is skipped once it is raised: a state that was left, a
     loop, a function.  What holds it is ``until``.  ``known`` are the values of data that are the same in
     every run at this point; ``locals`` are those of the variables of functions, each version of which is a
-    temporary of its own, so that it has no more values than were assigned to it.  More assignments than ``most``
-    are refused; those of a part that is used in several places count in each.
+    temporary of its own, so that it has no more values than were assigned to it.  More assignments than
+    ``most`` are refused; those of a part that is used in several places count in each.
     """
 
     def __init__(self, name: str, most: int = MOST_STATEMENTS) -> None:
@@ -64,8 +64,8 @@ class ProgramWriter:
         self.size += by
         if self.size > self._most:
             raise TooManyStatements(
-                f"a step of {self.name} does more than {self._most:,} things: let fewer events be sent while others "
-                "are answered, and loops make fewer turns"
+                f"a step of {self.name} does more than {self._most:,} things: let fewer events be sent while "
+                "others are answered, and loops make fewer turns"
             )
 
     def read(self, var: Var) -> Expr:
@@ -161,11 +161,11 @@ class ProgramWriter:
         size, self.size = self.size - size, size
         return made, size
 
-    def include(self, statements: list[Statement], size: int, written: frozenset[str] | None = None) -> None:
-        """Write a part that was written alone; what it may write is no longer known."""
+    def include(self, statements: list[Statement], size: int) -> None:
+        """Write a part that was written alone; nothing is known after it."""
         self._rows += statements
         self._grow(size)
-        self.known = {} if written is None else {n: c for n, c in self.known.items() if n not in written}
+        self.known = {}
 
     # --- ends ----------------------------------------------------------------------------------------------
 
@@ -236,7 +236,7 @@ class ProgramWriter:
         first: list[Statement],
         second: list[Statement],
     ) -> dict[str, Symbolic]:
-        """The variables of functions after either of two parts, at the end of which they are brought together."""
+        """The variables of functions after either of two parts, which end by giving them the same names."""
         found = {**other, **one}
         for part, absent in ((first, other.keys() - one.keys()), (second, one.keys() - other.keys())):
             for name in absent:  # it means nothing on this way, and has some value

@@ -1,7 +1,7 @@
-"""Statements of charts and MATLAB functions as statements of a step; loops are unrolled, functions inlined."""
+"""Statements of charts and MATLAB functions as statements of a step, with loops unrolled."""
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from rovercheck.checker.drawn.grammar.actions import (
@@ -46,7 +46,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.records import DrawnData
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, any_of
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_of
 
 MOST_TURNS = 1_000
 """Turns of a loop that are written one after the other, where each is sure to be made."""
@@ -125,11 +125,11 @@ class StatementWriter(ExpressionWriter):
                 with self.writer.until("loop_left") as broken:
                     self._turn(one, replace(scope, broken=broken), MOST_TURNS, self.table.turns)
             case BreakStatement():
-                self._end(scope.broken, "break", scope)
+                self._end(scope.broken, "break")
             case ContinueStatement():
-                self._end(scope.continued, "continue", scope)
+                self._end(scope.continued, "continue")
             case ReturnStatement():
-                self._end(scope.returned, "return", scope)
+                self._end(scope.returned, "return")
             case NameDeclaration("persistent", names):
                 scope.kept.update(names)
                 for name in names:
@@ -137,10 +137,10 @@ class StatementWriter(ExpressionWriter):
             case NameDeclaration(keyword):
                 raise NotLowered(f"`{keyword}` variables: pass the value")
 
-    def _end(self, flag: object, word: str, scope: Scope) -> None:
+    def _end(self, flag: Var | None, word: str) -> None:
         if flag is None:
             raise NotLowered(f"`{word}` stands in nothing that it could end")
-        self.writer.end(flag)  # type: ignore[arg-type]
+        self.writer.end(flag)
 
     def _if(self, branches: Sequence[IfBranch], otherwise: Sequence[ActionStatement], scope: Scope) -> None:
         if not branches:
@@ -244,10 +244,10 @@ class StatementWriter(ExpressionWriter):
                 first = self.first_index(of, scope)
                 self.check_index(at, first, len(flat(whole)))
                 new = single_of(value)
-                made = [
+                every = [
                     self._if_at(one, folded(at == first + n), new, scope) for n, one in enumerate(flat(whole))
                 ]
-                self._write(of, matrix(made, *size_of(whole)), scope)
+                self._write(of, matrix(every, *size_of(whole)), scope)
             case _:
                 raise NotLowered("what is assigned to is no datum")
 
@@ -280,12 +280,12 @@ class StatementWriter(ExpressionWriter):
             own = [
                 number("double", (at % columns) * rows + at // columns + 1).expr for at in range(len(found))
             ]
-            pairs = [(place, None) for place in places]
+            pairs: list[tuple[Expr, Expr | None]] = [(place, None) for place in places]
         else:
             down, across = (
                 self.index(i, most, scope) for i, most in zip(indices, (rows, columns), strict=True)
             )
-            pairs = [(r, c) for r in down for c in across]  # type: ignore[misc]
+            pairs = [(r, c) for r in down for c in across]
             own = []
         if len(given) not in (1, len(pairs)):
             raise NotLowered(f"{len(given)} values are written to {len(pairs)} places")
@@ -325,8 +325,7 @@ class StatementWriter(ExpressionWriter):
         if len(changed) > 1:
             changed = [(cell, self.writer.kept("new", new)) for cell, new in changed]
         for cell, new in changed:
-            if not isinstance(new.expr, Const) or True:
-                self.table.write(self.writer, cell, new.expr)
+            self.table.write(self.writer, cell, new.expr)
 
     def _local(self, name: str, value: Symbolic, scope: Scope) -> None:
         """A variable of a function: each assignment makes a new version of it."""
@@ -334,11 +333,11 @@ class StatementWriter(ExpressionWriter):
         old = self.writer.locals.get(key)
         if (
             old is not None
+            and not isinstance(old, SymbolicStructure)
             and (old.kind, size_of(old)) != (value.kind, size_of(value))
-            and old.kind != "two types"
+            and UNTYPED not in (old.kind, value.kind)
         ):
-            if not isinstance(old, SymbolicStructure) and UNTYPED not in (old.kind, value.kind):
-                raise NotLowered(f"{name} is of {old.kind} first, and of {value.kind} then: give each a name")
+            raise NotLowered(f"{name} is of {old.kind} first, and of {value.kind} then: give each a name")
         made = [self.writer.kept(name, one) for _, one in leaves(value, "")]
         self.writer.locals[key] = filled(value, iter(made))
 
@@ -362,7 +361,5 @@ class StatementWriter(ExpressionWriter):
         self._all(self.persistent[key], value, scope)
         self.table.write(self.writer, single_of(self.persistent[f"{key}?"]), FALSE)
 
-
-Write = Callable[[], None]
 
 __all__ = ["StatementWriter"]

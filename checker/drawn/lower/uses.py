@@ -19,7 +19,10 @@ def uses_of(lowered: LoweredModel) -> dict[str, tuple[set[Fraction], bool]]:
     for formula in _formulas(lowered):
         for name, constant in _used(formula):
             constants, otherwise = found.get(name, (set(), False))
-            found[name] = constants | ({constant} - {None}), otherwise or constant is None  # type: ignore[operator]
+            found[name] = (
+                constants | ({constant} if constant is not None else set()),
+                otherwise or constant is None,
+            )
     return found
 
 
