@@ -29,7 +29,7 @@ def wired(system: DrawnSystem) -> Wiring:
     return _Wires(system).wiring()
 
 
-def is_group(block: DrawnBlock) -> bool:
+def _is_group(block: DrawnBlock) -> bool:
     """Whether a block only groups others: it has no control and is not atomic."""
     if block.kind != "SubSystem" or block.chart or block.system is None:
         return False
@@ -60,10 +60,11 @@ class _Wires:
                 self._in[block.id] = group
             if block.kind == "Goto":
                 self._gotos.setdefault(block.parameters.get("GotoTag", "A"), []).append(block)
-            if is_group(block) and block.system is not None:
+            if _is_group(block) and block.system is not None:
                 self._take(block.system, block)
 
     def wiring(self) -> Wiring:
+        """The wiring.  Raises ``ChartFault`` for blocks that feed themselves without a delay."""
         found = Wiring()
         real = [block for block in self._blocks.values() if self._is_real(block)]
         for target, port in list(self._lines):
@@ -76,7 +77,7 @@ class _Wires:
 
     def _is_real(self, block: DrawnBlock) -> bool:
         grouped = block.id in self._in and block.kind in ("Inport", "Outport")
-        return not (is_group(block) or block.kind in ("Goto", "From", "GotoTagVisibility") or grouped)
+        return not (_is_group(block) or block.kind in ("Goto", "From", "GotoTagVisibility") or grouped)
 
     def _source(self, port: Port) -> Port | None:
         """The output of a block that does something, behind others; ``None``: nothing is connected."""
@@ -128,4 +129,4 @@ def _sorted(before: Mapping[str, list[str]]) -> Iterator[str]:
         waiting = [one for one in waiting if one not in done]
 
 
-__all__ = ["CONTROL", "DELAYS", "Port", "Wiring", "is_group", "number_of", "wired"]
+__all__ = ["CONTROL", "DELAYS", "Port", "Wiring", "number_of", "wired"]

@@ -48,7 +48,7 @@ def files_of(path: Path) -> list[Path]:
 
 
 def _properties_of(path: Path) -> list[Path]:
-    """The files with the properties of a model of Simulink, ``NAME_properties``: a file, a folder, or none."""
+    """The files with the properties of a model of Simulink, ``NAME_properties``: a file or a folder."""
     beside = path.with_name(f"{path.stem}_properties")
     if beside.is_dir():
         return files_of(beside)

@@ -1,4 +1,4 @@
-"""A model of Simulink run by both of its readings: the direct interpreter, and the system it is lowered to."""
+"""A model of Simulink run by both of its readings: the direct interpreter, and the system made of it."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -6,8 +6,8 @@ from fractions import Fraction
 from random import Random
 from time import monotonic
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.drawn.lower.uses import uses_of

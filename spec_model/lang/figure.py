@@ -15,8 +15,8 @@ class ChartFigure:
     the upper left corners of their labels.
 
     A transition is known by its start, ``Off.Idle``, its kind, ``*`` for a default and ``^`` for an inner
-    one, and its number, ``#2``.  ``sheets`` are subcharts, whose contents are drawn elsewhere, with coordinates of
-    their own.
+    one, and its number, ``#2``.  ``sheets`` are subcharts, whose contents are drawn elsewhere, with
+    coordinates of their own.
     """
 
     frames: Mapping[Path, Frame]

@@ -1,8 +1,8 @@
 """Charts whose step is a program already: what an imported chart shows, and what it does.
 
 Stateflow has constructs that the charts written here do not: inner transitions, history, events that are
-sent to a whole chart, functions with memory.  A chart that is read from a file is lowered as a whole where it is
-read; its states are those that a person sees.
+sent to a whole chart, functions with memory.  A chart that is read from a file is lowered as a whole where
+it is read; its states are those that a person sees.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -119,6 +119,7 @@ class ProgrammedChart(Chart):
 
     @property
     def guards(self) -> list[Expr]:
+        """None: conditions are in the program."""
         return []
 
     def active_path(self, path: Path) -> Expr:

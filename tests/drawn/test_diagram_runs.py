@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import TRUE, ChartFault
+from rovercheck.checker.drawn.interpret.values import TRUE
 from rovercheck.checker.simulink.model import read_model
 from tests.drawn.charts import logged, note, running
 from tests.simulink.writer.charts import WrittenChart

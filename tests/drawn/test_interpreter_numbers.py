@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.drawn.faults import ChartFault
 from tests.drawn.charts import LOG, logged, running
 from tests.simulink.writer.charts import WrittenChart
 

@@ -1,6 +1,5 @@
 """What of a model of Simulink can be checked: its system, beside the direct interpreter."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,7 +33,7 @@ class LoweringReport:
     difference: str = ""
 
 
-def lowering_of(path: Path, model: DrawnModel, beside: Sequence[Path]) -> LoweringReport:
+def lowering_of(path: Path, model: DrawnModel) -> LoweringReport:
     """The report on a model.  Raises ``ModelError`` for a file of domains that cannot be read."""
     said = read_domains(domains_path(path))
     try:

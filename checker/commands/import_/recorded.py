@@ -7,8 +7,8 @@ from math import isnan
 from pathlib import Path
 
 from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.io.files import csv_plain
 from rovercheck.spec_model.lang.errors import ModelError

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression
@@ -12,7 +13,6 @@ from rovercheck.checker.drawn.interpret.memory import BUS, TypeTable
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,

@@ -6,11 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Name, parts
 from rovercheck.checker.drawn.grammar.trees import expressions_of
 from rovercheck.checker.drawn.interpret.evaluate import Evaluator, Frame
 from rovercheck.checker.drawn.interpret.memory import datum_of
-from rovercheck.checker.drawn.interpret.values import ChartFault, MatlabValue, Scalar, double, logical, scalar
+from rovercheck.checker.drawn.interpret.values import MatlabValue, Scalar, double, logical, scalar
 from rovercheck.checker.drawn.parsed import JunctionNode, ParsedChart, StateNode, TransitionNode
 
 UNITS = {"sec": Fraction(1), "msec": Fraction(1, 1000), "usec": Fraction(1, 10**6)}

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.syntax import Expression
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS, parameter, parsed_value
 from rovercheck.checker.drawn.interpret.evaluate import Frame
@@ -11,7 +12,6 @@ from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import (
-    ChartFault,
     MatlabValue,
     NumberRules,
     Structure,
@@ -356,15 +356,19 @@ class _NoChart:
 
     @staticmethod
     def memory(types: TypeTable) -> ChartMemory:
+        """No data at all."""
         return ChartMemory(types, NumberRules())
 
     def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+        """There are no words of a chart."""
         return None
 
     def sent(self, expression: Expression, frame: Frame) -> bool:
+        """There are no events."""
         return False
 
     def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
+        """Raises ``ChartFault``: there are no functions."""
         raise ChartFault(f"{function.signature.name} is not known here")
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import (
     Applied,
@@ -28,7 +29,6 @@ from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -101,7 +101,7 @@ class Evaluator(ABC):
             case Name(name):
                 return self._name(name, expression, frame)
             case Member() | Applied():
-                return self._one(self._several(expression, frame, 1))
+                return self._one(self._several(expression, frame))
             case Indexed(array_, index):
                 return self._element(expression, self.value(array_, frame), index, frame)
             case UnaryOperation(sign, operand):
@@ -148,10 +148,10 @@ class Evaluator(ABC):
             return frame.persistent[name]
         if (datum := datum_of(frame.node, name)) is not None:
             return self.memory.values[datum.ssid]
-        return self._one(self._several(expression, frame, 1))
+        return self._one(self._several(expression, frame))
 
-    def _several(self, expression: Expression, frame: Frame, wanted: int) -> list[MatlabValue]:
-        """The values of a call, of which so many are wanted; of anything else its value."""
+    def _several(self, expression: Expression, frame: Frame) -> list[MatlabValue]:
+        """The values of a call; of anything else its value."""
         if not (isinstance(expression, Applied) and self._is_of_the_chart(expression.function, frame)):
             found = self._words.word(expression, frame)
             if found is not None:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil, floor, fmod, inf, isfinite, isinf, isnan, nan, sqrt, trunc
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.operations import BITS, binary
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
@@ -10,7 +11,6 @@ from rovercheck.checker.drawn.interpret.values import (
     TYPES,
     WHOLE,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Literal
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
@@ -15,7 +16,7 @@ from rovercheck.checker.drawn.interpret.evaluate import Dropped, Frame
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault, MatlabValue, NumberRules, Scalar, logical
+from rovercheck.checker.drawn.interpret.values import MatlabValue, NumberRules, Scalar, logical
 from rovercheck.checker.drawn.parsed import (
     FunctionNode,
     JunctionNode,

@@ -4,10 +4,10 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
     TYPES,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,

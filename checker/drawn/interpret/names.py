@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
-from rovercheck.checker.drawn.interpret.values import ChartFault
 from rovercheck.checker.drawn.parsed import StateNode
 
 

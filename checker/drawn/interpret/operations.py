@@ -4,11 +4,11 @@ import operator
 from collections.abc import Callable, Mapping
 from math import copysign, fmod, inf, isinf, isnan, nan, trunc
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
     WHOLE,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
+from rovercheck.checker.drawn.faults import ChartFault
 from rovercheck.checker.drawn.grammar.actions import (
     ActionStatement,
     Assignment,
@@ -26,7 +27,6 @@ from rovercheck.checker.drawn.interpret.operations import binary
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -91,7 +91,7 @@ class StatementRunner(Evaluator):
                     if not frame.alive():
                         raise Dropped
                 else:
-                    self._several(expression, frame, 0)
+                    self._several(expression, frame)
             case IfStatement(branches, otherwise):
                 taken = next((b.body for b in branches if self.truth(b.condition, frame)), otherwise)
                 self.run(taken, frame)
@@ -147,7 +147,7 @@ class StatementRunner(Evaluator):
                 new = binary(sign, self.value(targets[0], frame), new, frame.rules)
             self._write(targets[0], new, frame)
             return
-        given = self._several(value, frame, len(targets))
+        given = self._several(value, frame)
         for target, one in zip(targets, given, strict=False):
             if target is not None:
                 self._write(target, one, frame)

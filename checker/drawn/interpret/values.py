@@ -78,10 +78,12 @@ TRUE, FALSE = Scalar("logical", 1), Scalar("logical", 0)
 
 
 def logical(value: bool) -> Scalar:
+    """A truth value."""
     return TRUE if value else FALSE
 
 
 def double(value: float) -> Scalar:
+    """A real number."""
     return Scalar("double", float(value))
 
 
@@ -177,7 +179,7 @@ def each_converted(value: MatlabValue, kind: str, rules: NumberRules) -> MatlabV
 
 
 __all__ = [
-    "FALSE", "FLOATS", "LITERAL", "TRUE", "TYPES", "WHOLE", "ArrayOf", "ChartFault", "MatlabValue",
+    "FALSE", "FLOATS", "LITERAL", "TRUE", "TYPES", "WHOLE", "ArrayOf", "MatlabValue",
     "NumberRules", "Scalar", "Structure", "array", "converted", "double", "each_converted", "in_range",
     "logical", "nearest", "scalar", "scalars", "shape", "single",
 ]  # fmt: skip

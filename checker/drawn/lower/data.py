@@ -48,6 +48,7 @@ class LearnedRange:
 
     @property
     def domain(self) -> Domain:
+        """All multiples of the resolution between the ends."""
         step = self.resolution
         return fixed((self.low // step) * step, -(-self.high // step) * step, step)
 
@@ -182,4 +183,4 @@ class DataTable:
         ]
 
 
-__all__ = ["DataTable", "LearnedRange"]
+__all__ = ["DataTable"]

@@ -24,7 +24,7 @@ from rovercheck.spec_model.lang.system import Statement
 
 
 class ChartWriter(TransitionWriter):
-    """One chart.  ``named`` are the values of parameters, ``data_names`` gives data the names of variables."""
+    """One chart.  ``named`` are the values of parameters as texts, ``data_names`` names the data."""
 
     def __init__(
         self, chart: ParsedChart, view: ChartView, table: DataTable, writer: ProgramWriter, step: str,

@@ -17,8 +17,8 @@ class Scope:
     """Where a text stands: its state, and the function if it is in one.
 
     ``left`` is raised once what the text still does is dropped, as its state was left: it goes on while
-    ``alive`` gives a condition that holds.  ``returned``, ``broken`` and ``continued`` are raised once a function, a
-    loop or a turn of it ends.  ``last`` is the meaning of ``end``.
+    ``alive`` gives a condition that holds.  ``returned``, ``broken`` and ``continued`` are raised once a
+    function, a loop or a turn of it ends.  ``last`` is the meaning of ``end``.
     """
 
     node: StateNode

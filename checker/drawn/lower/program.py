@@ -236,7 +236,7 @@ class ProgramWriter:
         first: list[Statement],
         second: list[Statement],
     ) -> dict[str, Symbolic]:
-        """The variables of functions after either of two parts, which end by giving them the same names."""
+        """The variables of functions after either of two parts, whose ends bring them together."""
         found = {**other, **one}
         for part, absent in ((first, other.keys() - one.keys()), (second, one.keys() - other.keys())):
             for name in absent:  # it means nothing on this way, and has some value

@@ -38,7 +38,7 @@ def toward_zero(expr: Expr) -> Expr:
     return _whole_by_sign(expr, floor_of)
 
 
-def by_sign(expr: Expr, of_positive: Callable[[Expr], Expr]) -> Expr:
+def _by_sign(expr: Expr, of_positive: Callable[[Expr], Expr]) -> Expr:
     """What is known of positive numbers; below 0 it is the same with the other sign."""
     low, high = least_and_greatest(expr)
     if low >= 0:
@@ -51,7 +51,7 @@ def _whole_by_sign(expr: Expr, of_positive: Callable[[Expr], Expr]) -> Expr:
     assert isinstance(expr.sort, Num)
     if expr.sort.resolution.denominator == 1:
         return rescale(expr, Num())
-    return by_sign(expr, of_positive)
+    return _by_sign(expr, of_positive)
 
 
 def negated(expr: Expr) -> Expr:
@@ -89,7 +89,7 @@ def remainder(one: Expr, other: Expr) -> Expr:
     def by(divisor: Fraction) -> Expr:
         if not divisor:
             raise NotLowered(f"`{one}` may be divided by 0")
-        return by_sign(one, lambda positive: _modulo(positive, abs(divisor)))
+        return _by_sign(one, lambda positive: _modulo(positive, abs(divisor)))
 
     return by_cases(other, by)
 
@@ -111,6 +111,6 @@ def _modulo(one: Expr, divisor: Fraction) -> Expr:
 
 
 __all__ = [
-    "MOST_CASES", "by_cases", "by_sign", "ceiling_of", "floor_of", "modulo", "nearest_of", "negated", "remainder",
+    "MOST_CASES", "by_cases", "ceiling_of", "floor_of", "modulo", "nearest_of", "negated", "remainder",
     "sum_of", "toward_zero",
 ]  # fmt: skip

@@ -181,6 +181,6 @@ def least_and_greatest(expr: Expr) -> tuple[Fraction, Fraction]:
 
 __all__ = [
     "INTEGERS", "LOGICAL", "REALS", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray", "SymbolicScalar",
-    "SymbolicStructure", "chosen", "constant_of", "filled", "flat", "folded", "least_and_greatest", "leaves", "matrix",
-    "number", "single_of", "size_of", "truth",
+    "SymbolicStructure", "chosen", "constant_of", "filled", "flat", "folded", "least_and_greatest",
+    "leaves", "matrix", "number", "single_of", "size_of", "truth",
 ]  # fmt: skip

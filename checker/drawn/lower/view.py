@@ -1,4 +1,4 @@
-"""A chart as a person sees it: its states, which of them are active, and its transitions with their labels."""
+"""A chart as a person sees it: its states, which of them are active, and its labelled transitions."""
 
 import re
 from collections.abc import Mapping, Sequence
