@@ -238,14 +238,15 @@ class ProgramWriter:
     ) -> dict[str, Symbolic]:
         """The variables of functions after either of two parts, whose ends bring them together."""
         found = {**other, **one}
-        for part, absent in ((first, other.keys() - one.keys()), (second, one.keys() - other.keys())):
+        only = [name for name in other if name not in one], [name for name in one if name not in other]
+        for part, absent in zip((first, second), only, strict=True):
             for name in absent:  # it means nothing on this way, and has some value
                 for _, leaf in leaves(found[name], name):
                     if isinstance(leaf.expr, Var):
                         part.append(Assign(leaf.expr, Const(leaf.expr.init, leaf.expr.sort)))
-        for name in one.keys() & other.keys():
-            if one[name] is not other[name]:
-                found[name] = self._joined(name, one[name], other[name], first, second)
+        for name, value in one.items():
+            if name in other and value is not other[name]:
+                found[name] = self._joined(name, value, other[name], first, second)
         return found
 
     def _joined(
