@@ -6,7 +6,7 @@ from functools import partial
 
 from rovercheck.checker.drawn.lower.chart_data import ChartDataWriter
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.names import Scope
+from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import folded
 from rovercheck.checker.drawn.lower.view import ChartView
@@ -78,10 +78,12 @@ class ActiveStateWriter(ChartDataWriter):
         raw = 0 if child is None else place.domain.raw(self.view.name(child))
         self.writer.assign(place, Const(raw, place.sort))
 
-    def _scope(self, node: StateNode, holds: StateNode | None = None) -> Scope:
+    def _scope(self, node: StateNode, holds: StateNode | None = None) -> TextScope:
         """Where a text of a state stands, and what must be active for it to go on."""
         alive = None if holds is None else partial(self.active, holds)
-        return Scope(node, self.rules, self._event, keeper=self.writer.name, left=self._dropped, alive=alive)
+        return TextScope(
+            node, self.rules, self._event, keeper=self.writer.name, left=self._dropped, alive=alive
+        )
 
     @contextmanager
     def _dropping(self) -> Iterator[None]:

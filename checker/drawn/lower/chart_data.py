@@ -6,7 +6,7 @@ from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import sizes
-from rovercheck.checker.drawn.lower.names import Scope
+from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.statements import StatementWriter
 from rovercheck.checker.drawn.lower.symbols import (
@@ -79,7 +79,7 @@ class ChartDataWriter(StatementWriter):
             text = self._values_named[one.name]
         given = None
         if text.strip():
-            scope = Scope(self.chart.root, self.rules)
+            scope = TextScope(self.chart.root, self.rules)
             given = self.value(parse_expression(text, self.chart.language), scope)
         if not kind:
             seen = self.table.kind_of(name)

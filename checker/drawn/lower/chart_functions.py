@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rovercheck.checker.drawn.lower.chart_paths import PathWriter
-from rovercheck.checker.drawn.lower.names import Scope
+from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
 from rovercheck.checker.drawn.parsed import FunctionNode
 
@@ -12,7 +12,7 @@ from rovercheck.checker.drawn.parsed import FunctionNode
 class FunctionWriter(PathWriter):
     """The functions of one chart."""
 
-    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: TextScope) -> list[Symbolic]:
         """A function of the chart: a MATLAB function, or a flow chart with its own data."""
         name = function.signature.name
         if name in scope.calls:
@@ -31,7 +31,7 @@ class FunctionWriter(PathWriter):
                 at = signature.inputs.index(datum_name)
                 if at < len(arguments):
                     self._all(self.datum(one, arguments[at]), arguments[at], replace(scope, node=flow))
-        inner = Scope(flow, self.rules, scope.event, calls=(*scope.calls, name), keeper=keeper)
+        inner = TextScope(flow, self.rules, scope.event, calls=(*scope.calls, name), keeper=keeper)
         self._search(flow.defaults, inner, lambda path: None, in_function=True)
         return [self.kept(self._now(self.cells[flow.data[name].ssid])) for name in signature.outputs]
 

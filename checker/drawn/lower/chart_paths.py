@@ -6,7 +6,7 @@ from functools import partial
 
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
 from rovercheck.checker.drawn.lower.chart_words import WordWriter
-from rovercheck.checker.drawn.lower.names import Scope
+from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
 from rovercheck.checker.drawn.parsed import StateNode, TransitionNode
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, any_of, const
@@ -23,8 +23,8 @@ class PathWriter(WordWriter):
     """Whether it is the same in every run that the transition looked at last is valid, or is not."""
 
     def _search(
-        self, transitions: Sequence[TransitionNode], scope: Scope, complete: Callable[[TransitionPath], None],
-        in_function: bool = False,
+        self, transitions: Sequence[TransitionNode], scope: TextScope,
+        complete: Callable[[TransitionPath], None], in_function: bool = False,
     ) -> None:  # fmt: skip
         """Try paths in order; ``complete`` is what the first one does that leads to a state.
 
@@ -36,7 +36,7 @@ class PathWriter(WordWriter):
             self._try(transitions, [], scope, complete, done, in_function)
 
     def _try(
-        self, transitions: Sequence[TransitionNode], path: TransitionPath, scope: Scope,
+        self, transitions: Sequence[TransitionNode], path: TransitionPath, scope: TextScope,
         complete: Callable[[TransitionPath], None], done: Var, in_function: bool,
     ) -> None:  # fmt: skip
         for one in transitions:
@@ -48,7 +48,7 @@ class PathWriter(WordWriter):
             )
 
     def _follow(
-        self, one: TransitionNode, path: TransitionPath, scope: Scope,
+        self, one: TransitionNode, path: TransitionPath, scope: TextScope,
         complete: Callable[[TransitionPath], None], done: Var, in_function: bool,
     ) -> None:  # fmt: skip
         with self._told(one):
@@ -77,7 +77,7 @@ class PathWriter(WordWriter):
             return
         self._try(one.target.outgoing, longer, scope, complete, done, in_function)
 
-    def _valid(self, one: TransitionNode, scope: Scope) -> Expr:
+    def _valid(self, one: TransitionNode, scope: TextScope) -> Expr:
         with self._told(one):
             label = one.label
             events = (
@@ -104,7 +104,7 @@ class PathWriter(WordWriter):
             text = str(error)
             raise NotLowered(text if "(SSID" in text else f"{one}: {text}") from error
 
-    def _occurs(self, event: Expression, scope: Scope) -> Expr:
+    def _occurs(self, event: Expression, scope: TextScope) -> Expr:
         """Whether an event is the current one, or a temporal condition holds."""
         match event:
             case Name(name) | Member(_, name):

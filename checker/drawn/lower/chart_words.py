@@ -6,7 +6,7 @@ from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperation, Ex
 from rovercheck.checker.drawn.lower.active_states import ActiveStateWriter
 from rovercheck.checker.drawn.lower.conversions import as_number
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.names import Scope, datum_in, state_in, words
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in, state_in, words
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
     NotLowered,
@@ -37,7 +37,7 @@ class WordWriter(ActiveStateWriter):
         self._conditions: dict[str, tuple[StateNode, Callable[[], Expr]]] = {}
         self._starts: dict[str, SymbolicScalar] = {}
 
-    def value(self, expression: Expression, scope: Scope) -> Symbolic:
+    def value(self, expression: Expression, scope: TextScope) -> Symbolic:
         """The value of an expression; of a count that is compared, only as far as it matters."""
         if isinstance(expression, BinaryOperation) and self._most is None:
             limit = self._limit_of(expression, scope)
@@ -49,7 +49,7 @@ class WordWriter(ActiveStateWriter):
                     self._most = None
         return super().value(expression, scope)
 
-    def _limit_of(self, expression: BinaryOperation, scope: Scope) -> int | None:
+    def _limit_of(self, expression: BinaryOperation, scope: TextScope) -> int | None:
         def constant(other: Expression) -> Expr:
             try:
                 return as_number(single_of(super(WordWriter, self).value(other, scope)))
@@ -64,7 +64,7 @@ class WordWriter(ActiveStateWriter):
         found = compared_limit(expression, constant, self.times.seconds)
         return None if found is None else found[1]
 
-    def word(self, expression: Expression, scope: Scope) -> Symbolic | None:
+    def word(self, expression: Expression, scope: TextScope) -> Symbolic | None:
         """Times, changes, and whether a state is active."""
         match expression:
             case Applied(Name("in"), (state,)):
@@ -88,7 +88,7 @@ class WordWriter(ActiveStateWriter):
     def _in_unit(self, count: Expr, unit: str) -> SymbolicScalar:
         return SymbolicScalar("double", folded(count * self.times.seconds(unit)) if unit in UNITS else count)
 
-    def _held(self, operator: Expression, condition: Expression, scope: Scope) -> Expr:
+    def _held(self, operator: Expression, condition: Expression, scope: TextScope) -> Expr:
         what, plain = self.times.name_of(operator), self._scope(scope.node)
         self._conditions[what] = scope.node, lambda: self.condition(condition, plain)
         most, self._most = self._most, None
@@ -116,7 +116,7 @@ class WordWriter(ActiveStateWriter):
     def _stepped(self) -> Var:
         return Var(f"{self.writer.name}.stepped", boolean, 0, "whether there was a step before", True)
 
-    def _watch(self, of: Expression, scope: Scope) -> tuple[SymbolicScalar, SymbolicScalar] | None:
+    def _watch(self, of: Expression, scope: TextScope) -> tuple[SymbolicScalar, SymbolicScalar] | None:
         """A datum at the start of this step and of the one before; ``None`` until it is watched."""
         one = datum_in(scope.node, of.name) if isinstance(of, Name) else None
         if one is None:
@@ -133,7 +133,7 @@ class WordWriter(ActiveStateWriter):
         before, _ = self._memories()[name]
         return self._starts[name], before
 
-    def _changed(self, name: str, of: Expression, values: Sequence[Expression], scope: Scope) -> Expr:
+    def _changed(self, name: str, of: Expression, values: Sequence[Expression], scope: TextScope) -> Expr:
         found = self._watch(of, scope)
         if found is None:
             return FALSE
@@ -150,7 +150,7 @@ class WordWriter(ActiveStateWriter):
             return folded(one.expr != other.expr)
         return folded(as_number(one) != as_number(other))
 
-    def _edge(self, name: str, of: Expression, scope: Scope) -> Expr:
+    def _edge(self, name: str, of: Expression, scope: TextScope) -> Expr:
         found = self._watch(of, scope)
         if found is None:
             return FALSE

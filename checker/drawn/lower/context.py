@@ -10,7 +10,7 @@ from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.model_names import ModelNames
-from rovercheck.checker.drawn.lower.names import Scope
+from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
 from rovercheck.checker.drawn.lower.view import ChartView
@@ -57,7 +57,7 @@ class LoweringContext:
         writer = ProgramWriter("parameter")
         view = ChartView(bare, "parameter", self.file)
         found = ChartWriter(bare, view, self.table, writer, self.step, self.named, lambda one, node: one.name)
-        return found.value(tree, Scope(bare.root, IntegerRules()))
+        return found.value(tree, TextScope(bare.root, IntegerRules()))
 
     def chart(self, path: str) -> ParsedChart:
         """The chart of a block.  Raises ``NotLowered``."""

@@ -26,7 +26,7 @@ from rovercheck.checker.drawn.lower.arithmetic import binary, unary
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
 from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.names import Scope, datum_in, function_in
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
     LOGICAL,
@@ -69,20 +69,22 @@ class ExpressionWriter(ABC):
     # --- what only the chart, or the statements, know ------------------------------------------------------
 
     @abstractmethod
-    def word(self, expression: Expression, scope: Scope) -> Symbolic | None:
+    def word(self, expression: Expression, scope: TextScope) -> Symbolic | None:
         """The value of an expression of the chart's own, as ``after(3, sec)``; ``None`` if it is none."""
 
     @abstractmethod
-    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: TextScope) -> list[Symbolic]:
         """Call a function of the chart."""
 
     @abstractmethod
-    def script(self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def script(
+        self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: TextScope
+    ) -> list[Symbolic]:
         """Call a MATLAB function of the script that a text stands in."""
 
     # --- values --------------------------------------------------------------------------------------------
 
-    def value(self, expression: Expression, scope: Scope) -> Symbolic:
+    def value(self, expression: Expression, scope: TextScope) -> Symbolic:
         """The value of an expression.  Raises ``NotLowered``."""
         match expression:
             case Number(value, kind):
@@ -114,17 +116,17 @@ class ExpressionWriter(ABC):
                 raise NotLowered(f"the text {text!r} has no value here")
         raise NotLowered("it has no value")
 
-    def condition(self, expression: Expression, scope: Scope) -> Expr:
+    def condition(self, expression: Expression, scope: TextScope) -> Expr:
         """An expression as a condition."""
         return condition_of(self.value(expression, scope))
 
     @staticmethod
-    def _kind(whole: bool, kind: NumberKind, scope: Scope) -> str:
+    def _kind(whole: bool, kind: NumberKind, scope: TextScope) -> str:
         if whole and kind in (NumberKind.INTEGER, NumberKind.BITS) and scope.rules.c:
             return UNTYPED
         return "single" if kind is NumberKind.SINGLE else "double"
 
-    def _both(self, left: Expression, right: Expression, scope: Scope) -> tuple[Symbolic, Symbolic]:
+    def _both(self, left: Expression, right: Expression, scope: TextScope) -> tuple[Symbolic, Symbolic]:
         """Two values, of which the first is what it was before the second was computed."""
         one = self.value(left, scope)
         if self._does(right, scope):
@@ -136,7 +138,7 @@ class ExpressionWriter(ABC):
         made = [self.writer.kept("value", one) for _, one in leaves(value, "")]
         return filled(value, iter(made))
 
-    def _does(self, expression: Expression, scope: Scope) -> bool:
+    def _does(self, expression: Expression, scope: TextScope) -> bool:
         """Whether a function is called in an expression, which may write data."""
         names = (
             one.function.name
@@ -146,7 +148,7 @@ class ExpressionWriter(ABC):
         plain = (one.name for one in parts(expression) if isinstance(one, Name))
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
-    def _is_felt(self, expression: Expression, scope: Scope) -> bool:
+    def _is_felt(self, expression: Expression, scope: TextScope) -> bool:
         """Whether it matters that it is computed: it may write data, begin a time anew, or be a fault."""
         return self._does(expression, scope) or any(
             isinstance(one, Indexed)
@@ -158,11 +160,11 @@ class ExpressionWriter(ABC):
             for one in parts(expression)
         )
 
-    def _short(self, sign: str, left: Expression, right: Expression, scope: Scope) -> Expr:
+    def _short(self, sign: str, left: Expression, right: Expression, scope: TextScope) -> Expr:
         """``&&`` and ``||``, of which the right side is computed only where it decides."""
         return self.decided_by(sign, self.condition(left, scope), right, scope)
 
-    def decided_by(self, sign: str, one: Expr, right: Expression, scope: Scope) -> Expr:
+    def decided_by(self, sign: str, one: Expr, right: Expression, scope: TextScope) -> Expr:
         """The same with the left side as a formula."""
         if isinstance(one, Const) and bool(one.value) == (sign == "||"):
             return one
@@ -180,7 +182,7 @@ class ExpressionWriter(ABC):
         found = self.writer.locals.pop(key)
         return single_of(found).expr
 
-    def _named(self, name: str, expression: Expression, scope: Scope) -> Symbolic:
+    def _named(self, name: str, expression: Expression, scope: TextScope) -> Symbolic:
         if scope.function and (local := self.writer.locals.get(f"{scope.function}:{name}")) is not None:
             if isinstance(local, SymbolicStructure) and local.kind == "two types":
                 raise NotLowered(f"{name} has values of several types or sizes: give each a name")
@@ -204,12 +206,12 @@ class ExpressionWriter(ABC):
         ]
         return filled(value, iter(made))
 
-    def is_datum(self, name: str, scope: Scope) -> bool:
+    def is_datum(self, name: str, scope: TextScope) -> bool:
         """Whether a name is that of a variable or a datum."""
         local = bool(scope.function) and f"{scope.function}:{name}" in self.writer.locals
         return local or name in scope.kept or datum_in(scope.node, name) is not None
 
-    def several(self, expression: Expression, scope: Scope) -> list[Symbolic]:
+    def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
         """All values of a call; of anything else its value."""
         own = isinstance(expression, Applied) and isinstance(expression.function, Name) and (
             self.is_datum(expression.function.name, scope)
@@ -240,7 +242,7 @@ class ExpressionWriter(ABC):
                 return self._called(name, (), scope)
         return [self.value(expression, scope)]
 
-    def _called(self, name: str, arguments: Iterable[Expression], scope: Scope) -> list[Symbolic]:
+    def _called(self, name: str, arguments: Iterable[Expression], scope: TextScope) -> list[Symbolic]:
         given = list(arguments)
         if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
             text = given.pop()
@@ -278,7 +280,7 @@ class ExpressionWriter(ABC):
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(f"{name} is no datum, event or function that is known here")
 
-    def is_unset(self, name: str, scope: Scope) -> Expr:
+    def is_unset(self, name: str, scope: TextScope) -> Expr:
         """Whether nothing was assigned to a persistent variable so far."""
         flag = self.persistent.get(f"{scope.keeper}.{name}?")
         if flag is None:
@@ -287,7 +289,7 @@ class ExpressionWriter(ABC):
 
     # --- elements ------------------------------------------------------------------------------------------
 
-    def first_index(self, whole: Expression, scope: Scope) -> int:
+    def first_index(self, whole: Expression, scope: TextScope) -> int:
         """The number of the first element of an array of C."""
         datum = datum_in(scope.node, whole.name) if isinstance(whole, Name) else None
         return int(datum.first_index or 0) if datum is not None else 0
@@ -313,7 +315,7 @@ class ExpressionWriter(ABC):
                 lambda: self.writer.fault(f"an index, `{at}`, may name no element of {count}"),
             )
 
-    def _indexed(self, value: Symbolic, indices: Sequence[Expression], scope: Scope) -> Symbolic:
+    def _indexed(self, value: Symbolic, indices: Sequence[Expression], scope: TextScope) -> Symbolic:
         rows, columns = size_of(value)
         every = flat(value)
         if len(indices) == 1:
@@ -338,7 +340,7 @@ class ExpressionWriter(ABC):
         self.check_index(index, 1, len(values))
         return _one_of(values, index, 1)
 
-    def index(self, index: Expression, most: int, scope: Scope) -> list[Expr]:
+    def index(self, index: Expression, most: int, scope: TextScope) -> list[Expr]:
         """The numbers, from 1, that an index means of so many elements."""
         if isinstance(index, WholeRange):
             return [number("double", at).expr for at in range(1, most + 1)]
@@ -349,7 +351,7 @@ class ExpressionWriter(ABC):
             return [number("double", at + 1).expr for at, one in enumerate(given) if one.constant]
         return [as_number(one) for one in given]
 
-    def _matrix(self, rows: Sequence[Sequence[Symbolic]], scope: Scope) -> Symbolic:
+    def _matrix(self, rows: Sequence[Sequence[Symbolic]], scope: TextScope) -> Symbolic:
         every = [[one for value in row for one in flat(value)] for row in rows]
         width = max(map(len, every), default=0)
         if any(len(row) != width for row in every):
@@ -364,7 +366,7 @@ class ExpressionWriter(ABC):
         found = each_converted(made, kind, scope.rules, self.table.kinds)
         return matrix(flat(found), len(every), width)
 
-    def _range(self, one: ColonRange, scope: Scope) -> Symbolic:
+    def _range(self, one: ColonRange, scope: TextScope) -> Symbolic:
         ends = [self.value(end, scope) for end in (one.start, one.stop)]
         step = number("double", 1) if one.step is None else single_of(self.value(one.step, scope))
         start, stop = (single_of(end) for end in ends)

@@ -12,7 +12,7 @@ from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
 from rovercheck.checker.drawn.lower.chart_paths import TransitionPath
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.names import Scope, state_in, words
+from rovercheck.checker.drawn.lower.names import TextScope, state_in, words
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
 from rovercheck.checker.drawn.lower.transitions import TransitionWriter
@@ -186,7 +186,7 @@ class ChartWriter(TransitionWriter):
 
     # --- events --------------------------------------------------------------------------------------------
 
-    def sent(self, expression: Expression, scope: Scope) -> bool:
+    def sent(self, expression: Expression, scope: TextScope) -> bool:
         """Send an event to the whole chart, or to one state, and have it answered at once."""
         owner: Expression | None
         match expression:
@@ -205,7 +205,7 @@ class ChartWriter(TransitionWriter):
             self.writer.end(scope.left, folded(~scope.alive()))
         return True
 
-    def _is_event(self, name: str, scope: Scope) -> bool:
+    def _is_event(self, name: str, scope: TextScope) -> bool:
         if scope.function and f"{scope.function}:{name}" in self.writer.locals:
             return False
         found = [node.events[name] for node in self.chart.root.every() if name in node.events]

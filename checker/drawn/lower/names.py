@@ -13,7 +13,7 @@ from rovercheck.spec_model.lang.expr import Expr, Var
 
 
 @dataclass
-class Scope:
+class TextScope:
     """Where a text stands: its state, and the function if it is in one.
 
     ``left`` is raised once what the text still does is dropped, as its state was left: it goes on while
@@ -93,4 +93,4 @@ def _names_end(node: StateNode, path: Sequence[str]) -> bool:
     return names[: len(path)] == list(path)[::-1]
 
 
-__all__ = ["Scope", "datum_in", "function_in", "state_in", "words"]
+__all__ = ["TextScope", "datum_in", "function_in", "state_in", "words"]

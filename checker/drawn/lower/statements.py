@@ -26,7 +26,7 @@ from rovercheck.checker.drawn.lower.arithmetic import binary
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, converted, each_converted
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
-from rovercheck.checker.drawn.lower.names import Scope, datum_in
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in
 from rovercheck.checker.drawn.lower.symbols import (
     UNTYPED,
     NotLowered,
@@ -56,7 +56,7 @@ class StatementWriter(ExpressionWriter):
     """Writes statements, and what they call."""
 
     @abstractmethod
-    def sent(self, expression: Expression, scope: Scope) -> bool:
+    def sent(self, expression: Expression, scope: TextScope) -> bool:
         """Send the event that a statement is; whether it is one."""
 
     @abstractmethod
@@ -65,7 +65,9 @@ class StatementWriter(ExpressionWriter):
 
     # --- functions -----------------------------------------------------------------------------------------
 
-    def script(self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def script(
+        self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: TextScope
+    ) -> list[Symbolic]:
         """Call a MATLAB function."""
         signature = function.signature
         if len(arguments) > len(signature.inputs):
@@ -97,14 +99,14 @@ class StatementWriter(ExpressionWriter):
 
     # --- statements ----------------------------------------------------------------------------------------
 
-    def run(self, statements: Iterable[ActionStatement], scope: Scope) -> None:
+    def run(self, statements: Iterable[ActionStatement], scope: TextScope) -> None:
         """Write statements.  Raises ``NotLowered``."""
         for one in statements:
             if self.writer.dead:
                 return
             self._statement(one, scope)
 
-    def _statement(self, one: ActionStatement, scope: Scope) -> None:
+    def _statement(self, one: ActionStatement, scope: TextScope) -> None:
         match one:
             case Assignment(targets, value, sign):
                 self._assign(targets, value, sign, scope)
@@ -142,7 +144,9 @@ class StatementWriter(ExpressionWriter):
             raise NotLowered(f"`{word}` stands in nothing that it could end")
         self.writer.end(flag)
 
-    def _if(self, branches: Sequence[IfBranch], otherwise: Sequence[ActionStatement], scope: Scope) -> None:
+    def _if(
+        self, branches: Sequence[IfBranch], otherwise: Sequence[ActionStatement], scope: TextScope
+    ) -> None:
         if not branches:
             self.run(otherwise, scope)
             return
@@ -154,7 +158,11 @@ class StatementWriter(ExpressionWriter):
         )
 
     def _switch(
-        self, given: Symbolic, cases: Sequence[SwitchCase], otherwise: Sequence[ActionStatement], scope: Scope
+        self,
+        given: Symbolic,
+        cases: Sequence[SwitchCase],
+        otherwise: Sequence[ActionStatement],
+        scope: TextScope,
     ) -> None:
         if not cases:
             self.run(otherwise, scope)
@@ -168,7 +176,7 @@ class StatementWriter(ExpressionWriter):
             lambda: self._switch(given, others, otherwise, scope),
         )
 
-    def _for(self, one: ForLoop, scope: Scope) -> None:
+    def _for(self, one: ForLoop, scope: TextScope) -> None:
         every = self.value(one.values, scope)
         rows, columns = size_of(every)
         found = flat(every)
@@ -182,7 +190,7 @@ class StatementWriter(ExpressionWriter):
                 with self.writer.until("turn_left") as continued:
                     self.run(one.body, replace(scope, broken=broken, continued=continued))
 
-    def _turn(self, one: WhileLoop, scope: Scope, most: int, few: int) -> None:
+    def _turn(self, one: WhileLoop, scope: TextScope, most: int, few: int) -> None:
         """A turn of a loop, and those after it."""
         condition = self.condition(one.condition, scope)
         if isinstance(condition, Const):
@@ -211,7 +219,7 @@ class StatementWriter(ExpressionWriter):
         targets: Sequence[Expression | None],
         value: Expression,
         sign: BinaryOperator | None,
-        scope: Scope,
+        scope: TextScope,
     ) -> None:
         if len(targets) == 1 and targets[0] is not None:
             new = self.value(value, scope)
@@ -226,7 +234,7 @@ class StatementWriter(ExpressionWriter):
             if target is not None:
                 self._write(target, one, scope)
 
-    def _write(self, target: Expression, value: Symbolic, scope: Scope) -> None:
+    def _write(self, target: Expression, value: Symbolic, scope: TextScope) -> None:
         match target:
             case Name(name):
                 self._set(name, value, scope)
@@ -251,7 +259,7 @@ class StatementWriter(ExpressionWriter):
             case _:
                 raise NotLowered("what is assigned to is no datum")
 
-    def _like(self, old: Symbolic, value: Symbolic, scope: Scope) -> Symbolic:
+    def _like(self, old: Symbolic, value: Symbolic, scope: TextScope) -> Symbolic:
         """A value in the type and the size of what it takes the place of."""
         if isinstance(old, SymbolicStructure) or isinstance(value, SymbolicStructure):
             if old.kind != value.kind:
@@ -265,12 +273,14 @@ class StatementWriter(ExpressionWriter):
             raise NotLowered(f"sizes of {shown}: a datum keeps its size")
         return made
 
-    def _if_at(self, old: SymbolicScalar, here: Expr, new: SymbolicScalar, scope: Scope) -> SymbolicScalar:
+    def _if_at(
+        self, old: SymbolicScalar, here: Expr, new: SymbolicScalar, scope: TextScope
+    ) -> SymbolicScalar:
         made = converted(new, old.kind, scope.rules, self.table.kinds)
         return SymbolicScalar(old.kind, chosen(here, made.expr, old.expr))
 
     def _with(
-        self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: Scope
+        self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: TextScope
     ) -> Symbolic:
         """A matrix with other values in some places."""
         rows, columns = size_of(whole)
@@ -302,7 +312,7 @@ class StatementWriter(ExpressionWriter):
                 found[at] = self._if_at(old, here, new, scope)
         return matrix(found, rows, columns)
 
-    def _set(self, name: str, value: Symbolic, scope: Scope) -> None:
+    def _set(self, name: str, value: Symbolic, scope: TextScope) -> None:
         if name in scope.kept:
             self._keep(name, value, scope)
         elif scope.function and (
@@ -314,11 +324,11 @@ class StatementWriter(ExpressionWriter):
         else:
             raise NotLowered(f"there is no datum {name} to write to")
 
-    def store(self, one: DrawnData, value: Symbolic, scope: Scope) -> None:
+    def store(self, one: DrawnData, value: Symbolic, scope: TextScope) -> None:
         """Write a datum: first all that is written is computed, as it may read the datum."""
         self._all(self.datum(one, value), value, scope)
 
-    def _all(self, cells: Symbolic, value: Symbolic, scope: Scope) -> None:
+    def _all(self, cells: Symbolic, value: Symbolic, scope: TextScope) -> None:
         made = self._like(cells, value, scope)
         pairs = list(zip((c for _, c in leaves(cells, "")), (v for _, v in leaves(made, "")), strict=True))
         changed = [(cell, new) for cell, new in pairs if cell.expr is not new.expr]
@@ -327,7 +337,7 @@ class StatementWriter(ExpressionWriter):
         for cell, new in changed:
             self.table.write(self.writer, cell, new.expr)
 
-    def _local(self, name: str, value: Symbolic, scope: Scope) -> None:
+    def _local(self, name: str, value: Symbolic, scope: TextScope) -> None:
         """A variable of a function: each assignment makes a new version of it."""
         key = f"{scope.function}:{name}"
         old = self.writer.locals.get(key)
@@ -341,7 +351,7 @@ class StatementWriter(ExpressionWriter):
         made = [self.writer.kept(name, one) for _, one in leaves(value, "")]
         self.writer.locals[key] = filled(value, iter(made))
 
-    def _recall(self, name: str, scope: Scope) -> None:
+    def _recall(self, name: str, scope: TextScope) -> None:
         """The memory of a persistent variable, if its type is known already."""
         key = f"{scope.keeper}.{name}"
         known = self.table.kind_of(key)
@@ -351,7 +361,7 @@ class StatementWriter(ExpressionWriter):
             unset = self.table.declared(f"{key}?", truth(TRUE), hidden=True)
             self.persistent[f"{key}?"] = unset
 
-    def _keep(self, name: str, value: Symbolic, scope: Scope) -> None:
+    def _keep(self, name: str, value: Symbolic, scope: TextScope) -> None:
         key = f"{scope.keeper}.{name}"
         kind = "double" if value.kind == UNTYPED else value.kind
         if is_structure(kind):
