@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from rovercheck.checker.drawn.faults import ChartFault
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.context import LoweringContext
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
@@ -21,7 +21,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
-from rovercheck.checker.drawn.wiring import Port, Wiring, number_of, wired
+from rovercheck.checker.drawn.wiring import Port, SystemWiring, number_of, wired
 from rovercheck.spec_model.lang.chart import Block, Component
 from rovercheck.spec_model.lang.walk import variables
 
@@ -44,8 +44,8 @@ class WiredBlocks:
     def __init__(self, system: DrawnSystem, context: LoweringContext, path: str) -> None:
         self.context, self._path = context, path
         try:
-            self._wiring: Wiring = wired(system)
-        except ChartFault as fault:
+            self._wiring: SystemWiring = wired(system)
+        except DrawnFault as fault:
             raise NotLowered(str(fault)) from fault
         self.nodes = [self._node(block) for block in self._wiring.order]
         self._by_id = {node.block.id: node for node in self.nodes}
