@@ -179,7 +179,7 @@ def each_converted(value: MatlabValue, kind: str, rules: NumberRules) -> MatlabV
 
 
 __all__ = [
-    "FALSE", "FLOATS", "LITERAL", "TRUE", "TYPES", "WHOLE", "ArrayOf", "MatlabValue",
+    "FALSE", "LITERAL", "TRUE", "TYPES", "WHOLE", "ArrayOf", "MatlabValue",
     "NumberRules", "Scalar", "Structure", "array", "converted", "double", "each_converted", "in_range",
     "logical", "nearest", "scalar", "scalars", "shape", "single",
 ]  # fmt: skip

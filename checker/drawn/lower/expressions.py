@@ -31,6 +31,7 @@ from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
     LOGICAL,
     REALS,
+    TWO_TYPES,
     UNTYPED,
     NotLowered,
     Symbolic,
@@ -184,7 +185,7 @@ class ExpressionWriter(ABC):
 
     def _named(self, name: str, expression: Expression, scope: TextScope) -> Symbolic:
         if scope.function and (local := self.writer.locals.get(f"{scope.function}:{name}")) is not None:
-            if isinstance(local, SymbolicStructure) and local.kind == "two types":
+            if isinstance(local, SymbolicStructure) and local.kind == TWO_TYPES:
                 raise NotLowered(f"{name} has values of several types or sizes: give each a name")
             return local
         if name in scope.kept:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import reduce
 
 from rovercheck.checker.drawn.lower.symbols import (
+    TWO_TYPES,
     Symbolic,
     SymbolicScalar,
     SymbolicStructure,
@@ -254,7 +255,7 @@ class ProgramWriter:
     ) -> Symbolic:
         lefts, rights = list(leaves(one, name)), list(leaves(other, name))
         if [(leaf, value.kind) for leaf, value in lefts] != [(leaf, value.kind) for leaf, value in rights]:
-            return SymbolicStructure("two types", {})  # whoever reads it is told so
+            return SymbolicStructure(TWO_TYPES, {})  # whoever reads it is told so
         made = []
         for (leaf, left), (_, right) in zip(lefts, rights, strict=True):
             if left.expr is right.expr or _same_constant(left.expr, right.expr):

@@ -20,6 +20,8 @@ INTEGERS: Mapping[str, tuple[int, int]] = {
 REALS = ("double", "single")
 LOGICAL, UNTYPED = "logical", "untyped"
 """Truth values; and whole numbers in a text of C, which take the type of what they are computed with."""
+TWO_TYPES = "two types"
+"""What a variable is of that has values of two types or sizes, depending on what was executed."""
 
 
 class NotLowered(Exception):
@@ -180,7 +182,7 @@ def least_and_greatest(expr: Expr) -> tuple[Fraction, Fraction]:
 
 
 __all__ = [
-    "INTEGERS", "LOGICAL", "REALS", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray", "SymbolicScalar",
-    "SymbolicStructure", "chosen", "constant_of", "filled", "flat", "folded", "least_and_greatest",
-    "leaves", "matrix", "number", "single_of", "size_of", "truth",
+    "INTEGERS", "LOGICAL", "REALS", "TWO_TYPES", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray",
+    "SymbolicScalar", "SymbolicStructure", "chosen", "constant_of", "filled", "flat", "folded",
+    "least_and_greatest", "leaves", "matrix", "number", "single_of", "size_of", "truth",
 ]  # fmt: skip
