@@ -9,7 +9,7 @@ from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.abstraction.of_system import board_of
 from rovercheck.spec_model.ambiguity import ANY, fixed
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
-from rovercheck.spec_model.lang.system import charts_of, in_order
+from rovercheck.spec_model.lang.system import chart_alone, charts_of
 from rovercheck.spec_model.repairs import Repair, repaired
 
 
@@ -70,7 +70,7 @@ def of_model(model: Model, name: str | None = None) -> Board:
     if name not in model.systems and name not in charts:
         known = [*model.systems, *charts]
         raise ModelError(f"{model.name} has no system and no chart {name!r}. {did_you_mean(name, known)}")
-    system = model.systems.get(name) or in_order(name, charts[name], text=charts[name].text)
+    system = model.systems.get(name) or chart_alone(charts[name], model.systems)
     assert model.path is not None, "a model of one's own is read from somewhere"
     return board_of(system, str(model.path.absolute()))
 

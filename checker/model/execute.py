@@ -33,15 +33,15 @@ def files_of(path: Path) -> list[Path]:
         inside = [f for f in sorted(path.glob("*.py")) if f.is_file() and not any(map(f.match, TESTS))]
         if not inside:
             raise ModelError(
-                f"{shown(path)} holds no Python file; a model is a .py file or a folder of them."
+                f"{shown(path)} holds no Python file; a model is a .py file, a folder of them or a .slx file."
             )
         return inside
     if not path.exists():
-        raise ModelError(f"There is no {shown(path)}; a model is a .py file or a folder of them.")
+        raise ModelError(f"There is no {shown(path)}; a model is a .py file, a folder of them or a .slx file.")
     if path.suffix == SUFFIX:
         return _properties_of(path)
     if path.suffix != ".py":
-        raise ModelError(f"{shown(path)} is no Python file; a model is a .py file or a folder of them.")
+        raise ModelError(f"{shown(path)} is no Python file; a model is a .py file, a folder of them or a .slx file.")
     if "." in path.stem:
         raise ModelError(f"{shown(path)} has a dot in its name, which no module can have; rename the file.")
     return [path]

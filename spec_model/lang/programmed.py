@@ -75,6 +75,14 @@ class ProgrammedChart(Chart):
         """Transitions that are drawn inside the state that they leave."""
         return self._inner
 
+    def with_program(self, program: StepProgram) -> "ProgrammedChart":
+        """The chart with another program, as one that also notes what it does."""
+        root = self.root
+        return ProgrammedChart(
+            self.name, root.states, program, default=root.default, junctions=root.junctions,
+            parallel=root.parallel, inner=self._inner, figure=self._figure, text=self.text, place=root.place,
+        )  # fmt: skip
+
     def with_root(self, root: State) -> Chart:
         """Raises ``ModelError``: what such a chart does is not said by its states."""
         raise ModelError(f"{self.name} was imported, and is changed in its file.")

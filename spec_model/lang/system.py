@@ -154,6 +154,13 @@ def charts_of(by_name: Mapping[str, System]) -> dict[str, Chart]:
     return found
 
 
+def chart_alone(chart: Chart, by_name: Mapping[str, System], notes: Sequence[str] = ()) -> System:
+    """A chart as a system of its own, with ticks and steps as in the first system that has it."""
+    home = next((one for one in by_name.values() if chart in one.charts), None)
+    alone = in_order(chart.name, chart, text=chart.text, notes=notes)
+    return alone if home is None else replace(alone, tick_ms=home.tick_ms, step_ms=home.step_ms)
+
+
 def enabled_in(components: Sequence[Component]) -> Iterator[Enabled]:
     """The enabled subsystems, nested ones too."""
     for component in components:

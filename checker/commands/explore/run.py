@@ -29,7 +29,7 @@ from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
-from rovercheck.spec_model.lang.system import System, charts_of, in_order
+from rovercheck.spec_model.lang.system import System, chart_alone, charts_of
 
 # --- all commands of rovercheck explore, by name or its beginning, with a sentence of help each --------
 
@@ -128,7 +128,7 @@ def _system(name: str, by_name: Mapping[str, System]) -> System:
     known: dict[str, Chart | None] = {**dict.fromkeys(by_name), **charts}
     found = pick("chart or system", name, known)
     assert found is not None, "systems were looked for before"
-    return in_order(found.name, found, text=found.text, notes=("The chart alone: all it reads is an input.",))
+    return chart_alone(found, by_name, notes=("The chart alone: all it reads is an input.",))
 
 
 def _offer(by_name: Mapping[str, System]) -> Exit:

@@ -16,7 +16,7 @@ from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, value
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.verify.result import Result
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import System, charts_of, in_order
+from rovercheck.spec_model.lang.system import System, chart_alone, charts_of
 
 MOST_SESSIONS = 32
 """Sessions that are kept; the one that was used least recently goes."""
@@ -104,7 +104,7 @@ class Workspace:
         chart = charts_of(self.systems).get(name)
         if chart is None:
             raise UsageError(f"The model has no system and no chart {name!r} any more.")
-        return in_order(chart.name, chart, text=chart.text)
+        return chart_alone(chart, self.systems)
 
     # --- sessions ---
 

@@ -225,11 +225,8 @@ class ModelPath(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         if value == "":
-            self.fail(
-                "the path is empty; write a Python file, a folder of them, or a model of Simulink.",
-                param,
-                ctx,
-            )
+            how = "write a Python file, a folder of them, or a model of Simulink."
+            self.fail(f"the path is empty; {how}", param, ctx)
         return super().convert(value, param, ctx)
 
 

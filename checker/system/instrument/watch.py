@@ -26,7 +26,8 @@ from rovercheck.spec_model.lang.chart import (
 )
 from rovercheck.spec_model.lang.domain import boolean, integer
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Temporal, Var
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
+from rovercheck.spec_model.lang.system import Program, Statement, System
 from rovercheck.spec_model.lang.walk import nodes
 
 
@@ -58,6 +59,8 @@ def _component(component: Component, wanted: _Wanted) -> Component:
         case Block():
             goals = _Goals(component.name, wanted)
             return Block(component.name, goals.actions(component.do, component.name), text=component.text)
+        case ProgrammedChart():
+            return _programmed(component, _Goals(component.name, wanted))
         case Chart():
             return _Chart(component, _Goals(component.name, wanted)).watched()
 
@@ -111,6 +114,33 @@ class _Goals:
 
     def _looks(self, expr: Expr, where: str) -> list[Action]:
         return [If(side.condition, raised) for side, raised in self.sides(expr, where)]
+
+
+def _programmed(chart: ProgrammedChart, goals: _Goals) -> Chart:
+    """An imported chart: a goal for each path that it may take, and none for sides of conditions."""
+    raised: dict[str, tuple[Action, ...]] = {}
+    for number, (marker, path) in enumerate(chart.program.fired.items(), start=1):
+        start = ".".join(path.source) if path.order else "default"
+        label = f" {path.label}" if path.label else ""
+        event = f", with {path.event}" if path.event else ""
+        text = f"{start} -> {'.'.join(path.target)}{label}{event}"
+        raised[marker] = goals.goal(GoalKind.TRANSITIONS, str(number), text)
+
+    def raising(statements: Program) -> Program:
+        out: list[Statement] = []
+        for one in statements:
+            if isinstance(one, If):
+                then, otherwise = (
+                    raising(tuple(a for a in part if isinstance(a, Assign | If)))
+                    for part in (one.then, one.otherwise)
+                )
+                one = If(one.condition, then, otherwise)
+            elif one.var.name in raised:
+                out += (a for a in raised[one.var.name] if isinstance(a, Assign))
+            out.append(one)
+        return tuple(out)
+
+    return chart.with_program(replace(chart.program, statements=raising(chart.program.statements)))
 
 
 class _Chart:
