@@ -276,7 +276,7 @@ __all__ = [
     "load",
     "model",
     "picture",
-    "simulink_model",
     "rover",
+    "simulink_model",
     "trace",
 ]

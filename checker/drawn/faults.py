@@ -1,8 +1,8 @@
 """What is drawn and has no meaning when it is executed."""
 
 
-class ChartFault(Exception):
+class DrawnFault(Exception):
     """Something that a step does and that has no meaning: what, and where."""
 
 
-__all__ = ["ChartFault"]
+__all__ = ["DrawnFault"]

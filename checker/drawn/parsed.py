@@ -139,6 +139,7 @@ class _Parser:
         self._notes: list[DrawingNote] = []
 
     def chart(self) -> ParsedChart:
+        """The chart with its texts read; those that cannot be read are noted."""
         root = StateNode(0, self._chart.name, self._chart.path, None, self._chart.parallel)
         self._level(root, self._chart.content)
         for one in self._transitions:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from rovercheck.checker.drawn.faults import ChartFault
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 
 Port = tuple[str, int]
@@ -13,7 +13,7 @@ DELAYS = ("UnitDelay", "Memory")
 
 
 @dataclass
-class Wiring:
+class SystemWiring:
     """The blocks of a system that do something, in their order of execution, and what feeds them.
 
     Of the inputs ``feeds`` says which output each is, by the block and the name of its port; what is fed by
@@ -24,12 +24,12 @@ class Wiring:
     feeds: dict[tuple[str, str], Port] = field(default_factory=dict)
 
 
-def wired(system: DrawnSystem) -> Wiring:
-    """The wiring of a system.  Raises ``ChartFault`` for blocks that feed themselves without a delay."""
+def wired(system: DrawnSystem) -> SystemWiring:
+    """The wiring of a system.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
     return _Wires(system).wiring()
 
 
-def is_group(block: DrawnBlock) -> bool:
+def _is_group(block: DrawnBlock) -> bool:
     """Whether a block only groups others: it has no control and is not atomic."""
     if block.kind != "SubSystem" or block.chart or block.system is None:
         return False
@@ -60,11 +60,12 @@ class _Wires:
                 self._in[block.id] = group
             if block.kind == "Goto":
                 self._gotos.setdefault(block.parameters.get("GotoTag", "A"), []).append(block)
-            if is_group(block) and block.system is not None:
+            if _is_group(block) and block.system is not None:
                 self._take(block.system, block)
 
-    def wiring(self) -> Wiring:
-        found = Wiring()
+    def wiring(self) -> SystemWiring:
+        """The wiring.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
+        found = SystemWiring()
         real = [block for block in self._blocks.values() if self._is_real(block)]
         for target, port in list(self._lines):
             if target in self._blocks and self._is_real(self._blocks[target]):
@@ -76,7 +77,7 @@ class _Wires:
 
     def _is_real(self, block: DrawnBlock) -> bool:
         grouped = block.id in self._in and block.kind in ("Inport", "Outport")
-        return not (is_group(block) or block.kind in ("Goto", "From", "GotoTagVisibility") or grouped)
+        return not (_is_group(block) or block.kind in ("Goto", "From", "GotoTagVisibility") or grouped)
 
     def _source(self, port: Port) -> Port | None:
         """The output of a block that does something, behind others; ``None``: nothing is connected."""
@@ -103,7 +104,7 @@ class _Wires:
         every = self._gotos.get(tag, [])
         near = [one for one in every if self._in.get(one.id) is self._in.get(block.id)]
         if len(near or every) != 1:
-            raise ChartFault(f"the From {block.path}: there are {len(near or every)} Goto of the tag {tag}")
+            raise DrawnFault(f"the From {block.path}: there are {len(near or every)} Goto of the tag {tag}")
         return (near or every)[0]
 
 
@@ -122,10 +123,10 @@ def _sorted(before: Mapping[str, list[str]]) -> Iterator[str]:
     while waiting:
         ready = [one for one in waiting if all(other in done for other in before[one])]
         if not ready:
-            raise ChartFault(f"the blocks {', '.join(waiting[:5])} feed each other without a delay")
+            raise DrawnFault(f"the blocks {', '.join(waiting[:5])} feed each other without a delay")
         yield from ready
         done.update(ready)
         waiting = [one for one in waiting if one not in done]
 
 
-__all__ = ["CONTROL", "DELAYS", "Port", "Wiring", "is_group", "number_of", "wired"]
+__all__ = ["CONTROL", "DELAYS", "Port", "SystemWiring", "number_of", "wired"]

@@ -5,15 +5,15 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import DomainsFile, domains_path, read_domains
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.model.two_readings import compared_readings
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart
-from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Expr, any_of
 from rovercheck.spec_model.lang.place import Place, here
@@ -91,10 +91,6 @@ class SimulinkModel:
                 raise ModelError(f"{len(found)} charts have a state {state!r}; write its chart before it.")
             raise ModelError(faults[0] if len(faults) == 1 else f"No chart has a state {state!r}.")
         return found[0]
-
-    def is_condition(self, name: str) -> bool:
-        """Whether a name stands for a truth value."""
-        return isinstance(self[name].sort, Bool)
 
 
 def simulink_model(path: str | Path) -> SimulinkModel:

@@ -21,6 +21,7 @@ _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterabl
 _OURS = Path(__file__).parents[2]
 _PACKAGES = {"site-packages", "dist-packages"}
 """Folders of an environment, which may lie in that of the model."""
+_MODELS = "a model is a .py file, a folder of them or a .slx file"
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 
@@ -32,23 +33,21 @@ def files_of(path: Path) -> list[Path]:
     if path.is_dir():
         inside = [f for f in sorted(path.glob("*.py")) if f.is_file() and not any(map(f.match, TESTS))]
         if not inside:
-            raise ModelError(
-                f"{shown(path)} holds no Python file; a model is a .py file, a folder of them or a .slx file."
-            )
+            raise ModelError(f"{shown(path)} holds no Python file; {_MODELS}.")
         return inside
     if not path.exists():
-        raise ModelError(f"There is no {shown(path)}; a model is a .py file, a folder of them or a .slx file.")
+        raise ModelError(f"There is no {shown(path)}; {_MODELS}.")
     if path.suffix == SUFFIX:
         return _properties_of(path)
     if path.suffix != ".py":
-        raise ModelError(f"{shown(path)} is no Python file; a model is a .py file, a folder of them or a .slx file.")
+        raise ModelError(f"{shown(path)} is no Python file; {_MODELS}.")
     if "." in path.stem:
         raise ModelError(f"{shown(path)} has a dot in its name, which no module can have; rename the file.")
     return [path]
 
 
 def _properties_of(path: Path) -> list[Path]:
-    """The files with the properties of a model of Simulink, ``NAME_properties``: a file, a folder, or none."""
+    """The files with the properties of a model of Simulink, ``NAME_properties``: a file or a folder."""
     beside = path.with_name(f"{path.stem}_properties")
     if beside.is_dir():
         return files_of(beside)

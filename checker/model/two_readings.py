@@ -1,4 +1,4 @@
-"""A model of Simulink run by both of its readings: the direct interpreter, and the system it is lowered to."""
+"""A model of Simulink run by both of its readings: the direct interpreter, and the system made of it."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -6,9 +6,9 @@ from fractions import Fraction
 from random import Random
 from time import monotonic
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault
-from rovercheck.checker.drawn.lower.diagram import LoweredModel
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.drawn.lower.uses import uses_of
 from rovercheck.spec_model.lang.domain import Num
@@ -77,7 +77,7 @@ def _one_run(
 ) -> tuple[ReadingDifference | None, int]:
     try:
         runner = ModelRunner(lowered.model, step)
-    except ChartFault as fault:
+    except DrawnFault as fault:
         raise ModelError(f"{lowered.model.name}: {fault}.") from fault
     system, run = LoweredRun(lowered), list[Mapping[str, float]]()
     given = {name: random.choice(some) for name, some in values.items()}
@@ -92,7 +92,7 @@ def _one_run(
         direct, other = dict[str, float](), dict[str, float]()
         try:
             direct = dict(runner.step(given))
-        except ChartFault as fault:
+        except DrawnFault as fault:
             faults.append(f"the interpreter says: {fault}")
         try:
             other = system.step(given)

@@ -5,6 +5,7 @@ Where it is only compared with constants, the cells are what lies between these 
 
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
+from typing import overload
 
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -29,7 +30,15 @@ class Stretches(Sequence[int]):
     def __len__(self) -> int:
         return self._length
 
-    def __getitem__(self, at: int) -> int:  # type: ignore[override]
+    @overload
+    def __getitem__(self, at: int) -> int: ...
+
+    @overload
+    def __getitem__(self, at: slice) -> Sequence[int]: ...
+
+    def __getitem__(self, at: int | slice) -> int | Sequence[int]:
+        if isinstance(at, slice):
+            return [self[one] for one in range(*at.indices(self._length))]
         if not -self._length <= at < self._length:
             raise IndexError(at)
         return self._numbers[bisect_right(self._starts, at % self._length) - 1]

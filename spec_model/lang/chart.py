@@ -147,7 +147,7 @@ class Chart:
             self.root, self.label_faults = with_labels_read(self)
             self.__dict__ = {name: self.__dict__[name] for name in self._written}
 
-    _written = ("name", "text", "local_to", "root", "data", "label_faults")
+    _written: tuple[str, ...] = ("name", "text", "local_to", "root", "data", "label_faults")
 
     def __getstate__(self) -> dict[str, object]:
         return self.__dict__ | {"data": ()}  # functions stay where they are written

@@ -14,9 +14,9 @@ class ChartFigure:
     """The drawing of a chart: frames of states and places of junctions by path, the points of transitions and
     the upper left corners of their labels.
 
-    A transition is known by its start, ``Off.Idle``, its kind, ``*`` for a default and ``^`` for an inner one,
-    and its number, ``#2``.  ``sheets`` are subcharts, whose contents are drawn elsewhere, with coordinates of
-    their own.
+    A transition is known by its start, ``Off.Idle``, its kind, ``*`` for a default and ``^`` for an inner
+    one, and its number, ``#2``.  ``sheets`` are subcharts, whose contents are drawn elsewhere, with
+    coordinates of their own.
     """
 
     frames: Mapping[Path, Frame]

@@ -1,8 +1,8 @@
 """Charts whose step is a program already: what an imported chart shows, and what it does.
 
-Stateflow has constructs that the charts written here do not: inner transitions, history, events that are sent to
-a whole chart, functions with memory.  A chart that is read from a file is lowered as a whole where it is
-read; its states are those that a person sees.
+Stateflow has constructs that the charts written here do not: inner transitions, history, events that are
+sent to a whole chart, functions with memory.  A chart that is read from a file is lowered as a whole where
+it is read; its states are those that a person sees.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -17,7 +17,7 @@ from rovercheck.spec_model.lang.figure import ChartFigure
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.system import Program
-from rovercheck.spec_model.lang.transition import Transition
+from rovercheck.spec_model.lang.transition import Junction, Transition
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class ProgrammedChart(Chart):
         program: StepProgram,
         *,
         default: Sequence[Transition] = (),
-        junctions: Sequence[object] = (),
+        junctions: Sequence[Junction] = (),
         parallel: bool = False,
         inner: Mapping[Path, Sequence[Transition]] | None = None,
         figure: ChartFigure | None = None,
@@ -59,7 +59,7 @@ class ProgrammedChart(Chart):
     ) -> None:
         self.name, self.text, self.local_to, self.data, self.label_faults = name, text, (), (), ()
         self.root = State(
-            name, states=states, junctions=junctions, default=default, parallel=parallel, place=place  # type: ignore[arg-type]
+            name, states=states, junctions=junctions, default=default, parallel=parallel, place=place
         )  # fmt: skip
         self.program, self._inner, self._figure = program, inner or {}, figure
 
@@ -127,6 +127,7 @@ class ProgrammedChart(Chart):
 
     @property
     def guards(self) -> list[Expr]:
+        """None: conditions are in the program."""
         return []
 
     def active_path(self, path: Path) -> Expr:

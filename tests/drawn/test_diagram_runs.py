@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import TRUE, ChartFault
+from rovercheck.checker.drawn.interpret.values import TRUE
 from rovercheck.checker.simulink.model import read_model
 from tests.drawn.charts import logged, note, running
 from tests.simulink.writer.charts import WrittenChart
@@ -101,7 +102,7 @@ def test_blocks_that_feed_each_other_without_a_delay_are_refused(tmp_path: Path)
     model.root.line(a, f"{total}/1")
     model.root.line(total, f"{total}/2")
     model.root.line(total, y)
-    with pytest.raises(ChartFault, match="feed each other without a delay"):
+    with pytest.raises(DrawnFault, match="feed each other without a delay"):
         read(model, tmp_path)
 
 
@@ -129,7 +130,7 @@ def test_a_subsystem_that_is_not_enabled_is_frozen_and_gives_first_what_its_char
 
 
 def test_a_subsystem_that_begins_anew_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ChartFault, match="StatesWhenEnabling = reset is not known here"):
+    with pytest.raises(DrawnFault, match="StatesWhenEnabling = reset is not known here"):
         enabled(tmp_path, StatesWhenEnabling="reset")
 
 
@@ -158,7 +159,7 @@ def test_a_block_of_another_rate_is_refused(tmp_path: Path) -> None:
     delay = model.root.block("UnitDelay", "slow", {"in": 1, "out": 1}, SampleTime="0.5")
     model.root.line(a, delay)
     model.root.line(delay, y)
-    with pytest.raises(ChartFault, match=r"slow runs every 0.5 s, and the model every 0.1 s"):
+    with pytest.raises(DrawnFault, match=r"slow runs every 0.5 s, and the model every 0.1 s"):
         read(model, tmp_path)
 
 
@@ -168,7 +169,7 @@ def test_a_block_without_a_meaning_is_named(tmp_path: Path) -> None:
     block = model.root.block("Lookup_n-D", "table", {"in": 1, "out": 1})
     model.root.line(a, block)
     model.root.line(block, y)
-    with pytest.raises(ChartFault, match="the block table: Lookup_n-D is not known here"):
+    with pytest.raises(DrawnFault, match="the block table: Lookup_n-D is not known here"):
         read(model, tmp_path)
 
 
@@ -185,7 +186,7 @@ def test_what_is_refused_is_not_run(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
         c.transition(None, c.state("A"))
 
-    with pytest.raises(ChartFault, match="C, the chart: it has super step semantics"):
+    with pytest.raises(DrawnFault, match="C, the chart: it has super step semantics"):
         running(tmp_path, draw, enableNonTerminalStates=1)
 
 
@@ -194,7 +195,7 @@ def test_a_parameter_has_the_value_of_a_script_beside_the_model(tmp_path: Path) 
         c.data("LIMIT", "parameter", "double")
         c.transition(None, c.state("A\nen: log = LIMIT + u;"))
 
-    with pytest.raises(ChartFault, match=r"C: the value of LIMIT stands in no file: name a script"):
+    with pytest.raises(DrawnFault, match=r"C: the value of LIMIT stands in no file: name a script"):
         running(tmp_path, draw)
     script = tmp_path / "values.m"
     script.write_text("LIMIT = 2 * 20; % of all\n", encoding="utf-8")
@@ -225,5 +226,5 @@ def test_an_event_to_other_blocks_is_refused(tmp_path: Path) -> None:
         c.event("OUT", "OUTPUT_EVENT", "EITHER_EDGE_EVENT")
         c.transition(None, c.state("A\nen: OUT;"))
 
-    with pytest.raises(ChartFault, match="OUT is an event to other blocks"):
+    with pytest.raises(DrawnFault, match="OUT is an event to other blocks"):
         logged(running(tmp_path, draw), [0])

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault
 from rovercheck.checker.simulink.model import read_model
 from tests.drawn.charts import logged, note, running
 from tests.simulink.samples import EXAMPLES
@@ -106,7 +106,7 @@ def test_junctions_may_be_a_loop_that_a_guard_ends_and_one_without_end_is_told(t
         c.transition(j, b, "", 2)
 
     assert logged(running(tmp_path, draw), [0, 3, 3]) == [0, 111, 111]
-    with pytest.raises(ChartFault, match=r"SSID \d+\) in C is in a loop of junctions without end"):
+    with pytest.raises(DrawnFault, match=r"SSID \d+\) in C is in a loop of junctions without end"):
         logged(running(tmp_path, draw), [0, 10**6])
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.drawn.faults import DrawnFault
 from tests.drawn.charts import LOG, logged, running
 from tests.simulink.writer.charts import WrittenChart
 
@@ -152,5 +152,5 @@ def test_what_has_no_meaning_is_told_with_its_chart(tmp_path: Path, action: str,
         c.function("y = f(x)", script="function y = f(x)\ny = f(x);\nend\n")
         c.transition(None, a)
 
-    with pytest.raises(ChartFault, match=f"^C: .*{why}"):
+    with pytest.raises(DrawnFault, match=f"^C: .*{why}"):
         logged(running(tmp_path, draw), [0])

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from rovercheck.checker.drawn.interpret.values import ChartFault
+from rovercheck.checker.drawn.faults import DrawnFault
 from tests.drawn.charts import logged, note, running
 from tests.simulink.writer.charts import WrittenChart
 
@@ -112,5 +112,5 @@ def test_a_time_in_seconds_needs_the_length_of_a_step(tmp_path: Path) -> None:
         c.transition(None, a)
         c.transition(a, b, "[after(1, sec)]")
 
-    with pytest.raises(ChartFault, match="the length of a step is not known"):
+    with pytest.raises(DrawnFault, match="the length of a step is not known"):
         logged(running(tmp_path, draw, step="auto"), [0, 0])

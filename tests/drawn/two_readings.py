@@ -4,9 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from rovercheck.checker.drawn.faults import ChartFault
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.lower.diagram import LoweredModel, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
@@ -77,7 +78,7 @@ def compared(
     run, system = LoweredRun(lowered), SteppedSystem(lowered)
     try:
         direct = ModelRunner(model)
-    except ChartFault as error:  # as it is entered before its first step
+    except DrawnFault as error:  # as it is entered before its first step
         assert _stepped(run, rows[0])[0] is None, f"{told}: {error}"
         return Compared(0, fault=str(error))
     for number, row in enumerate(rows):
@@ -85,7 +86,7 @@ def compared(
         try:
             expected = dict(direct.step(row))
             fault = ""
-        except ChartFault as error:
+        except DrawnFault as error:
             expected, fault = None, str(error)
         found, said = _stepped(run, row)
         assert found == expected, (

@@ -12,7 +12,10 @@ from rovercheck.spec_model.lang.chart import Chart
 from tests.simulink.samples import SAMPLES, package_of
 from tests.simulink.writer.packages import WrittenModel
 
-CHARTS = {"1_lamp": "Lamp", "2_microwave": "Oven", "3_crossing": "Crossing", "4_smoother": "Smoother", "6_press": "Press"}
+CHARTS = {
+    "1_lamp": "Lamp", "2_microwave": "Oven", "3_crossing": "Crossing", "4_smoother": "Smoother",
+    "6_press": "Press",
+}  # fmt: skip
 
 
 def chart(sample: str) -> Chart:

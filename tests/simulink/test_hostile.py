@@ -126,7 +126,10 @@ def test_systems_in_each_other_are_read_up_to_a_bound(
     for number in range(blocks.MOST_LEVELS - 1):
         inline = f"<System>{block(number, inline)}</System>"
     told = f"no more than {blocks.MOST_LEVELS} systems in each other are read"
-    assert run(["import", str(package_in(tmp_path, lamp(root=inline))), "--json"]) in (Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
+    assert run(["import", str(package_in(tmp_path, lamp(root=inline))), "--json"]) in (
+        Exit.AS_EXPECTED,
+        Exit.INCONCLUSIVE,
+    )
     assert capsys.readouterr().err == ""
     assert told in refused_parts(lamp(root=f"<System>{block(1, inline)}{block(2, '')}</System>"), tmp_path)
     assert told in refused_parts(chain(1000, ""), tmp_path)

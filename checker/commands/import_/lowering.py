@@ -1,11 +1,11 @@
 """What of a model of Simulink can be checked: its system, beside the direct interpreter."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rovercheck.checker.drawn.lower.diagram import RangeNotKnown, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
+from rovercheck.checker.drawn.lower.lowered import RangeNotKnown
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.model.two_readings import compared_readings
@@ -33,7 +33,7 @@ class LoweringReport:
     difference: str = ""
 
 
-def lowering_of(path: Path, model: DrawnModel, beside: Sequence[Path]) -> LoweringReport:
+def lowering_of(path: Path, model: DrawnModel) -> LoweringReport:
     """The report on a model.  Raises ``ModelError`` for a file of domains that cannot be read."""
     said = read_domains(domains_path(path))
     try:

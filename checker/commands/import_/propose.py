@@ -1,4 +1,4 @@
-"""``rovercheck import --propose-domains``: the file of domains beside a model, to be corrected by a person."""
+"""``rovercheck import --propose-domains``: a file of domains beside a model, for a person to correct."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path

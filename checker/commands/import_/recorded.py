@@ -7,8 +7,8 @@ from math import isnan
 from pathlib import Path
 
 from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.io.files import csv_plain
 from rovercheck.spec_model.lang.errors import ModelError
@@ -51,7 +51,7 @@ def compared_with(model: DrawnModel, log: Path) -> RecordingComparison:
     for line, given in _rows(log, inputs):
         try:
             made = runner.step({name: given[name] for name in inputs})
-        except ChartFault as fault:
+        except DrawnFault as fault:
             raise ModelError(f"{model.name}, row {rows} of {log.name}: {fault}.") from fault
         if rows == 0:
             outputs = tuple(name for name in made if name in given)
@@ -71,7 +71,7 @@ def compared_with(model: DrawnModel, log: Path) -> RecordingComparison:
 def _runner(model: DrawnModel) -> ModelRunner:
     try:
         return ModelRunner(model)
-    except ChartFault as fault:
+    except DrawnFault as fault:
         raise ModelError(f"{model.name}: {fault}.") from fault
 
 

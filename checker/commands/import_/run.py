@@ -33,7 +33,7 @@ def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: 
     for chart in map(parsed_chart, model.charts):
         notes += [*chart.notes, *unknown_names(chart, model.enumerations)]
     compared = None if log is None else compared_with(model, log)
-    lowering = None if any(note.kind == "refused" for note in notes) else lowering_of(path, model, beside)
+    lowering = None if any(note.kind == "refused" for note in notes) else lowering_of(path, model)
     code = Exit.INCONCLUSIVE if any(note.kind == "refused" for note in notes) else Exit.AS_EXPECTED
     if lowering is not None and lowering.refused:
         code = Exit.INCONCLUSIVE
@@ -132,8 +132,8 @@ def _lowered(path: Path, found: LoweringReport | None) -> Iterator[str]:
         yield _wrapped(f"• {note}", "  ")
     if found.difference:
         yield _wrapped(
-            f"✗ The two ways in which it is read differ, which is an error of rovercheck: {found.difference}. "
-            "Please report it.", "  ",
+            "✗ The two ways in which it is read differ, which is an error of rovercheck: "
+            f"{found.difference}. Please report it.", "  ",
         )  # fmt: skip
     else:
         yield _wrapped(f"in {found.steps:,} steps of random runs the direct interpreter gives the same", "  ")

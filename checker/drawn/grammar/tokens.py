@@ -107,11 +107,13 @@ class _Tokenizer:
         )
 
     def add(self, kind: TokenKind, text: str) -> None:
+        """A token stands at the offset."""
         self.tokens.append(Token(kind, text, self.at, self.blank))
         self.at += len(text)
         self.blank = False
 
     def skip(self, end: int) -> None:
+        """Go on behind what means nothing."""
         self.at, self.blank = end, True
 
     def step(self) -> None:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression
@@ -12,7 +13,6 @@ from rovercheck.checker.drawn.interpret.memory import BUS, TypeTable
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -64,7 +64,7 @@ def _logic(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueO
         "NXOR": lambda some: sum(some) % 2 == 0,
     }  # fmt: skip
     if operator not in ways:
-        raise ChartFault(f"the operator {operator} of a Logic block is not known")
+        raise DrawnFault(f"the operator {operator} of a Logic block is not known")
     return [logical(ways[operator](truths))]
 
 
@@ -120,7 +120,7 @@ def _conversion(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: V
     if kind.endswith(("int8", "int16", "int32", "int64")):
         ways = {"Floor": "floor", "Ceiling": "ceil", "Zero": "fix", "Nearest": "round", "Round": "round"}
         if rounding not in ways:
-            raise ChartFault(f"the rounding {rounding} is not known: Floor, Ceiling, Zero, Nearest or Round")
+            raise DrawnFault(f"the rounding {rounding} is not known: Floor, Ceiling, Zero, Nearest or Round")
         return [each_converted(BUILTINS[ways[rounding]]([inputs[0]], WRAPS), kind, rules_of(block))]
     return [each_converted(inputs[0], kind, rules_of(block))]
 
@@ -139,7 +139,7 @@ def _selected(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Val
         value: MatlabValue = inputs[0]
         for part in name.strip().split("."):
             if not isinstance(value, Structure) or part not in value.elements:
-                raise ChartFault(f"the bus has no element {name.strip()}")
+                raise DrawnFault(f"the bus has no element {name.strip()}")
             value = value.elements[part]
         found.append(value)
     return found
@@ -148,7 +148,7 @@ def _selected(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Val
 def _bus(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     text = block.parameters.get("OutDataTypeStr", "")
     if not text.startswith(BUS):
-        raise ChartFault("a bus without a type: give the BusCreator one, Bus: NAME")
+        raise DrawnFault("a bus without a type: give the BusCreator one, Bus: NAME")
     bus = types.buses[types.kind(text).removeprefix(BUS).strip()]
     pairs = zip(bus.elements, inputs, strict=True)
     made = {one.name: each_converted(value, types.kind(one.type), WRAPS) for one, value in pairs}
@@ -213,11 +213,11 @@ def parameter(text: str, named: Mapping[str, str]) -> str:
 
 
 def parsed_value(text: str) -> Expression:
-    """The tree of a parameter.  Raises ``ChartFault``."""
+    """The tree of a parameter.  Raises ``DrawnFault``."""
     try:
         return parse_expression(text, ActionLanguage.MATLAB)
     except GrammarError as error:
-        raise ChartFault(f"the parameter {text!r}: {error}") from error
+        raise DrawnFault(f"the parameter {text!r}: {error}") from error
 
 
 __all__ = ["BLOCKS", "BlockStep", "parameter", "parsed_value", "typed"]

@@ -6,11 +6,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Name, parts
 from rovercheck.checker.drawn.grammar.trees import expressions_of
-from rovercheck.checker.drawn.interpret.evaluate import Evaluator, Frame
+from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Evaluator
 from rovercheck.checker.drawn.interpret.memory import datum_of
-from rovercheck.checker.drawn.interpret.values import ChartFault, MatlabValue, Scalar, double, logical, scalar
+from rovercheck.checker.drawn.interpret.values import MatlabValue, Scalar, double, logical, scalar
 from rovercheck.checker.drawn.parsed import JunctionNode, ParsedChart, StateNode, TransitionNode
 
 UNITS = {"sec": Fraction(1), "msec": Fraction(1, 1000), "usec": Fraction(1, 10**6)}
@@ -65,7 +66,7 @@ class ChartClock:
     # --- words ---------------------------------------------------------------------------------------------
 
     def word(
-        self, expression: Expression, frame: Frame, event: str, evaluator: Evaluator
+        self, expression: Expression, frame: CallFrame, event: str, evaluator: Evaluator
     ) -> MatlabValue | None:
         """The value of a word of time or change; ``None`` if it is none."""
         match expression:
@@ -87,7 +88,13 @@ class ChartClock:
         return None
 
     def _limit(
-        self, name: str, limit: Expression, unit: Expression, frame: Frame, event: str, evaluator: Evaluator
+        self,
+        name: str,
+        limit: Expression,
+        unit: Expression,
+        frame: CallFrame,
+        event: str,
+        evaluator: Evaluator,
     ) -> MatlabValue:
         written = evaluator.value(limit, frame)
         value = Fraction(str(scalar(written).value))
@@ -106,13 +113,13 @@ class ChartClock:
     def _seconds(self, unit: Expression) -> Fraction:
         """A step in a unit of time."""
         if self._step is None:
-            raise ChartFault("the length of a step is not known, and a time in seconds is asked for")
+            raise DrawnFault("the length of a step is not known, and a time in seconds is asked for")
         word = _word(unit)
         if word not in UNITS:
-            raise ChartFault(f"{word} is no unit of time: write sec, msec or usec")
+            raise DrawnFault(f"{word} is no unit of time: write sec, msec or usec")
         return self._step / UNITS[word]
 
-    def _duration(self, operator: Expression, condition: Expression, frame: Frame, by: Evaluator) -> int:
+    def _duration(self, operator: Expression, condition: Expression, frame: CallFrame, by: Evaluator) -> int:
         """Steps for which a condition holds; once it is seen not to, they begin anew."""
         key = id(operator), frame.node
         if not by.truth(condition, frame):
@@ -120,7 +127,7 @@ class ChartClock:
         return self._held.get(key, 0)
 
     def _changed(
-        self, name: str, of: Expression, values: Sequence[Expression], frame: Frame, by: Evaluator
+        self, name: str, of: Expression, values: Sequence[Expression], frame: CallFrame, by: Evaluator
     ) -> MatlabValue:
         now, before = self._starts(of, frame, by)
         if before is None:
@@ -133,7 +140,7 @@ class ChartClock:
             here = here and _equal(before, wanted[0])
         return logical(here)
 
-    def _edge(self, name: str, of: Expression, frame: Frame, by: Evaluator) -> MatlabValue:
+    def _edge(self, name: str, of: Expression, frame: CallFrame, by: Evaluator) -> MatlabValue:
         now, before = self._starts(of, frame, by)
         if before is None:
             return logical(False)
@@ -141,11 +148,13 @@ class ChartClock:
         rises, falls = one <= 0 < other, one >= 0 > other
         return logical({"rising": rises, "falling": falls, "crossing": rises or falls}[name])
 
-    def _starts(self, of: Expression, frame: Frame, by: Evaluator) -> tuple[MatlabValue, MatlabValue | None]:
+    def _starts(
+        self, of: Expression, frame: CallFrame, by: Evaluator
+    ) -> tuple[MatlabValue, MatlabValue | None]:
         """A datum at the start of this step, and of the step before."""
         datum = datum_of(frame.node, of.name) if isinstance(of, Name) else None
         if datum is None:
-            raise ChartFault("changes are seen of a datum: name one")
+            raise DrawnFault("changes are seen of a datum: name one")
         memory = by.memory
         now = memory.start.get(datum.ssid, memory.values[datum.ssid])  # there is no start at initialization
         return now, memory.before.get(datum.ssid)
@@ -158,7 +167,7 @@ def _equal(one: MatlabValue, other: MatlabValue) -> bool:
 def _word(unit: Expression) -> str:
     if isinstance(unit, Name):
         return unit.name
-    raise ChartFault("times are counted in sec, msec, usec, tick or in an event")
+    raise DrawnFault("times are counted in sec, msec, usec, tick or in an event")
 
 
 def _durations(chart: ParsedChart) -> Iterator[tuple[Applied, StateNode]]:

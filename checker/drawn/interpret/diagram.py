@@ -4,14 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Expression
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS, parameter, parsed_value
-from rovercheck.checker.drawn.interpret.evaluate import Frame
+from rovercheck.checker.drawn.interpret.evaluate import CallFrame
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import (
-    ChartFault,
     MatlabValue,
     NumberRules,
     Structure,
@@ -21,10 +21,10 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
-from rovercheck.checker.drawn.wiring import DELAYS, Wiring, number_of, wired
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel, DrawnSystem
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
 
 Number = int | float
 
@@ -32,7 +32,7 @@ Number = int | float
 class ModelRunner:
     """Runs a model from its power-up.  Inputs and outputs have flat names: ``probe.level``, ``force(2)``.
 
-    Raises ``ChartFault``, here and in each step, for what has no meaning.
+    Raises ``DrawnFault``, here and in each step, for what has no meaning.
     """
 
     def __init__(self, model: DrawnModel, step: str = "") -> None:
@@ -41,14 +41,14 @@ class ModelRunner:
         self.named = {one.name: one.value for one in model.parameters}
         for note in notes_of(model):
             if note.kind == "refused":
-                raise ChartFault(str(note).rstrip("."))
+                raise DrawnFault(str(note).rstrip("."))
         self._top = _System(model.system, self)
         root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
         self._inports = [root[number] for number in sorted(root)]
         every = [one for one in model.system.blocks if one.kind == "Outport"]
         ends = {number_of(one): one for one in every}
         if len(ends) < len(every):
-            raise ChartFault("two Outports have one number: give each its own")
+            raise DrawnFault("two Outports have one number: give each its own")
         self._outports = [ends[number] for number in sorted(ends)]
         self._top.initialize([self._at_rest(port) for port in self._inports])
 
@@ -98,17 +98,17 @@ class ModelRunner:
     # --- what blocks need ----------------------------------------------------------------------------------
 
     def chart(self, path: str) -> DrawnChart:
-        """The chart of a block.  Raises ``ChartFault``."""
+        """The chart of a block.  Raises ``DrawnFault``."""
         found = [one for one in self.model.charts if one.path == path]
         if len(found) != 1:
-            raise ChartFault(f"the block {path} has no chart in the file")
+            raise DrawnFault(f"the block {path} has no chart in the file")
         return found[0]
 
     def value_of(self, text: str) -> MatlabValue:
-        """The value of a parameter.  Raises ``ChartFault``."""
+        """The value of a parameter.  Raises ``DrawnFault``."""
         tree = parsed_value(parameter(text, self.named))
         runner = StatementRunner(_NoChart.memory(self.types), _NoChart())
-        return runner.value(tree, Frame(StateNode(0, "", "", None), NumberRules()))
+        return runner.value(tree, CallFrame(StateNode(0, "", "", None), NumberRules()))
 
 
 def _flat(name: str, value: MatlabValue) -> Iterator[tuple[str, Number]]:
@@ -155,7 +155,7 @@ class _System:
             elif node.system is not None:
                 node.outputs = node.system.at_rest()
 
-    def _node(self, block: DrawnBlock, wiring: Wiring) -> _Node:
+    def _node(self, block: DrawnBlock, wiring: SystemWiring) -> _Node:
         ports = [int(port) for target, port in wiring.feeds if target == block.id and port.isdigit()]
         inputs = [wiring.feeds.get((block.id, str(number))) for number in range(1, max(ports, default=0) + 1)]
         self._check(block)
@@ -166,9 +166,9 @@ class _System:
         if block.chart:
             chart = parsed_chart(self._runner.chart(block.chart))
             if chart.notes:
-                raise ChartFault(str(chart.notes[0]))
+                raise DrawnFault(str(chart.notes[0]))
             if chart.drawn.activity_output:
-                raise ChartFault(f"{block.path}: the output of the active state is not known here")
+                raise DrawnFault(f"{block.path}: the output of the active state is not known here")
             runner = self._runner
             node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
         elif block.kind == "SubSystem" and block.system is not None:
@@ -178,23 +178,23 @@ class _System:
         elif block.kind in DELAYS:
             node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
         elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", *_CONTROLS):
-            raise ChartFault(f"the block {block.path}: {block.kind} is not known here")
+            raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
 
     def _check(self, block: DrawnBlock) -> None:
-        """Refuse what would make a block run at another rate, or begin anew.  Raises ``ChartFault``."""
+        """Refuse what would make a block run at another rate, or begin anew.  Raises ``DrawnFault``."""
         path, parameters = " ".join(block.path.split()), block.parameters
         rate = parameters.get("SampleTime", "-1").strip()
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
             rate = chart.sample_time.strip() or "-1"
         if rate not in ("-1", "0", "inf") and not _same_number(rate, self._runner.step_length):
             step = self._runner.step_length
-            raise ChartFault(
+            raise DrawnFault(
                 f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
             )
         for name, kind in (("StatesWhenEnabling", "EnablePort"), ("OutputWhenDisabled", "Outport")):
             if block.kind == kind and parameters.get(name, "held") == "reset":
-                raise ChartFault(f"the block {path}: {name} = reset is not known here; held is")
+                raise DrawnFault(f"the block {path}: {name} = reset is not known here; held is")
 
     def at_rest(self) -> list[MatlabValue]:
         """The outputs of a system that was not executed yet."""
@@ -243,8 +243,8 @@ class _System:
         for node in self._nodes:
             try:
                 node.outputs = self._executed(node, inputs)
-            except ChartFault as fault:
-                raise ChartFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+            except DrawnFault as fault:
+                raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
         found = [self._values(node)[0] for node in self._ends]
         delays = [node for node in self._nodes if node.block.kind in DELAYS]
         for node, values in [(node, self._values(node)) for node in delays]:
@@ -292,7 +292,7 @@ class _System:
         if node.control == "trigger":
             before, node.was = node.was, now
             return any(_edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
-        raise ChartFault(f"a subsystem that is controlled by {node.control} is not known here")
+        raise DrawnFault(f"a subsystem that is controlled by {node.control} is not known here")
 
     def _charted(
         self, node: _Node, machine: ChartMachine, values: Sequence[MatlabValue]
@@ -346,7 +346,7 @@ _CONTROLS = ("EnablePort", "TriggerPort", "ActionPort")
 def _edge(kind: str, before: float, now: float) -> bool:
     """Whether a signal rises or falls through 0 as a trigger of a kind asks for."""
     if kind in ("function call", "function-call"):
-        raise ChartFault("an event that is a function call is not known here")
+        raise DrawnFault("an event that is a function call is not known here")
     rises, falls = before <= 0 < now, before > 0 >= now
     return {"rising": rises, "falling": falls}.get(kind, rises or falls)
 
@@ -356,16 +356,20 @@ class _NoChart:
 
     @staticmethod
     def memory(types: TypeTable) -> ChartMemory:
+        """No data at all."""
         return ChartMemory(types, NumberRules())
 
-    def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+    def word(self, expression: Expression, frame: CallFrame) -> MatlabValue | None:
+        """There are no words of a chart."""
         return None
 
-    def sent(self, expression: Expression, frame: Frame) -> bool:
+    def sent(self, expression: Expression, frame: CallFrame) -> bool:
+        """There are no events."""
         return False
 
     def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
-        raise ChartFault(f"{function.signature.name} is not known here")
+        """Raises ``DrawnFault``: there are no functions."""
+        raise DrawnFault(f"{function.signature.name} is not known here")
 
 
 __all__ = ["ModelRunner"]

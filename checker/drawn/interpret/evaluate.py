@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import (
     Applied,
@@ -28,7 +29,6 @@ from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -53,7 +53,7 @@ class Dropped(Exception):
 
 
 @dataclass
-class Frame:
+class CallFrame:
     """Where a text stands: the state whose names it uses, and that its timers belong to.
 
     ``local``: the variables of a function, if it is one.  ``alive``: asked after each event that is sent.
@@ -75,10 +75,10 @@ class Frame:
 class ChartWords(Protocol):
     """What only the running chart knows: events, states and times."""
 
-    def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+    def word(self, expression: Expression, frame: CallFrame) -> MatlabValue | None:
         """The value of an expression of the chart's own, as ``after(3, sec)``; ``None`` if it is none."""
 
-    def sent(self, expression: Expression, frame: Frame) -> bool:
+    def sent(self, expression: Expression, frame: CallFrame) -> bool:
         """Send the event that a statement is; whether it is one."""
 
     def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
@@ -93,15 +93,15 @@ class Evaluator(ABC):
 
     # --- expressions ---------------------------------------------------------------------------------------
 
-    def value(self, expression: Expression, frame: Frame) -> MatlabValue:
-        """The value of an expression.  Raises ``ChartFault``."""
+    def value(self, expression: Expression, frame: CallFrame) -> MatlabValue:
+        """The value of an expression.  Raises ``DrawnFault``."""
         match expression:
             case Number(value, kind):
                 return self._number(value.numerator, value.denominator, kind, frame)
             case Name(name):
                 return self._name(name, expression, frame)
             case Member() | Applied():
-                return self._one(self._several(expression, frame, 1))
+                return self._one(self._several(expression, frame))
             case Indexed(array_, index):
                 return self._element(expression, self.value(array_, frame), index, frame)
             case UnaryOperation(sign, operand):
@@ -117,41 +117,41 @@ class Evaluator(ABC):
             case LastIndex():
                 return double(frame.last)
             case TextLiteral(text):
-                raise ChartFault(f"the text {text!r} has no value here")
-        raise ChartFault("it has no value")
+                raise DrawnFault(f"the text {text!r} has no value here")
+        raise DrawnFault("it has no value")
 
-    def truth(self, expression: Expression, frame: Frame) -> bool:
+    def truth(self, expression: Expression, frame: CallFrame) -> bool:
         """An expression as a condition."""
         value = self.value(expression, frame)
         if isinstance(value, Structure):
-            raise ChartFault("a structure is no condition")
+            raise DrawnFault("a structure is no condition")
         return value.truth
 
     @staticmethod
-    def _number(numerator: int, denominator: int, kind: NumberKind, frame: Frame) -> Scalar:
+    def _number(numerator: int, denominator: int, kind: NumberKind, frame: CallFrame) -> Scalar:
         whole = denominator == 1 and kind in (NumberKind.INTEGER, NumberKind.BITS)
         if whole and frame.rules.c:
             return Scalar(LITERAL, numerator)
         return Scalar("single" if kind is NumberKind.SINGLE else "double", numerator / denominator)
 
-    def _binary(self, sign: str, left: Expression, right: Expression, frame: Frame) -> MatlabValue:
+    def _binary(self, sign: str, left: Expression, right: Expression, frame: CallFrame) -> MatlabValue:
         if sign == "&&":
             return logical(self.truth(left, frame) and self.truth(right, frame))
         if sign == "||":
             return logical(self.truth(left, frame) or self.truth(right, frame))
         return binary(sign, self.value(left, frame), self.value(right, frame), frame.rules)
 
-    def _name(self, name: str, expression: Expression, frame: Frame) -> MatlabValue:
+    def _name(self, name: str, expression: Expression, frame: CallFrame) -> MatlabValue:
         if frame.local is not None and name in frame.local:
             return frame.local[name]
         if name in frame.kept:
             return frame.persistent[name]
         if (datum := datum_of(frame.node, name)) is not None:
             return self.memory.values[datum.ssid]
-        return self._one(self._several(expression, frame, 1))
+        return self._one(self._several(expression, frame))
 
-    def _several(self, expression: Expression, frame: Frame, wanted: int) -> list[MatlabValue]:
-        """The values of a call, of which so many are wanted; of anything else its value."""
+    def _several(self, expression: Expression, frame: CallFrame) -> list[MatlabValue]:
+        """The values of a call; of anything else its value."""
         if not (isinstance(expression, Applied) and self._is_of_the_chart(expression.function, frame)):
             found = self._words.word(expression, frame)
             if found is not None:
@@ -168,7 +168,7 @@ class Evaluator(ABC):
                 value = self.value(structure, frame)
                 if isinstance(value, Structure) and name in value.elements:
                     return [value.elements[name]]
-                raise ChartFault(f"there is no element {name}")
+                raise DrawnFault(f"there is no element {name}")
             case Applied(Name(name), arguments) if self._is_no_datum(name, frame):
                 return self._called(name, arguments, frame)
             case Applied(whole, arguments):
@@ -177,30 +177,30 @@ class Evaluator(ABC):
                 return self._called(name, (), frame)
         return [self.value(expression, frame)]
 
-    def _is_of_the_chart(self, called: Expression, frame: Frame) -> bool:
+    def _is_of_the_chart(self, called: Expression, frame: CallFrame) -> bool:
         """Whether a datum or a function has the name, which may be that of a word of time."""
         if not isinstance(called, Name):
             return False
         functions = frame.script.keys() | {name for node in frame.node.lineage() for name in node.functions}
         return called.name in functions or not self._is_no_datum(called.name, frame)
 
-    def _is_no_datum(self, name: str, frame: Frame) -> bool:
+    def _is_no_datum(self, name: str, frame: CallFrame) -> bool:
         local = (frame.local or {}).keys() | frame.kept
         return name not in local and datum_of(frame.node, name) is None
 
     @staticmethod
     def _one(values: Sequence[MatlabValue]) -> MatlabValue:
         if not values:
-            raise ChartFault("a function that gives nothing stands where a value must")
+            raise DrawnFault("a function that gives nothing stands where a value must")
         return values[0]
 
     # --- calls ---------------------------------------------------------------------------------------------
 
-    def _called(self, name: str, arguments: Iterable[Expression], frame: Frame) -> list[MatlabValue]:
+    def _called(self, name: str, arguments: Iterable[Expression], frame: CallFrame) -> list[MatlabValue]:
         given = list(arguments)
         function = next((one.functions[name] for one in frame.node.lineage() if name in one.functions), None)
         if frame.calls > MOST_CALLS:
-            raise ChartFault(f"{name} calls itself, or more than {MOST_CALLS} functions call each other")
+            raise DrawnFault(f"{name} calls itself, or more than {MOST_CALLS} functions call each other")
         if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
             kind = given.pop()
             assert isinstance(kind, TextLiteral)
@@ -217,35 +217,37 @@ class Evaluator(ABC):
             return []
         if name in self.memory.types.enumerations:
             return [each_converted(values[0], f"Enum: {name}", frame.rules)]
-        raise ChartFault(f"{name} is not known here")
+        raise DrawnFault(f"{name} is not known here")
 
     @abstractmethod
     def script(
-        self, function: ScriptFunction, values: Sequence[MatlabValue], caller: Frame
+        self, function: ScriptFunction, values: Sequence[MatlabValue], caller: CallFrame
     ) -> list[MatlabValue]:
         """Call a MATLAB function with these values."""
 
     # --- indices -------------------------------------------------------------------------------------------
 
-    def _element(self, whole: Indexed, value: MatlabValue, index: Expression, frame: Frame) -> MatlabValue:
+    def _element(
+        self, whole: Indexed, value: MatlabValue, index: Expression, frame: CallFrame
+    ) -> MatlabValue:
         """An element of C, counted from the first index of its datum."""
         at = int(scalar(self.value(index, frame)).value) - self._first(whole.array, frame)
         found = scalars(value)
         if not 0 <= at < len(found):
-            raise ChartFault(f"the index {at} of {len(found)} values")
+            raise DrawnFault(f"the index {at} of {len(found)} values")
         return found[at]
 
-    def _first(self, array_: Expression, frame: Frame) -> int:
+    def _first(self, array_: Expression, frame: CallFrame) -> int:
         datum = datum_of(frame.node, array_.name) if isinstance(array_, Name) else None
         return int(datum.first_index or 0) if datum is not None else 0
 
-    def _indexed(self, value: MatlabValue, indices: Sequence[Expression], frame: Frame) -> MatlabValue:
+    def _indexed(self, value: MatlabValue, indices: Sequence[Expression], frame: CallFrame) -> MatlabValue:
         places, size = self._places(value, indices, frame)
         found = scalars(value)
         return array((found[at] for at in places), *size)
 
     def _places(
-        self, value: MatlabValue, indices: Sequence[Expression], frame: Frame
+        self, value: MatlabValue, indices: Sequence[Expression], frame: CallFrame
     ) -> tuple[list[int], tuple[int, int]]:
         """Where the elements are that indices from 1 name, and in how many rows and columns."""
         rows, columns = shape(value)
@@ -258,7 +260,7 @@ class Evaluator(ABC):
         )
         return [r * columns + c for r in down for c in across], (len(down), len(across))
 
-    def _index(self, index: Expression, most: int, frame: Frame) -> list[int]:
+    def _index(self, index: Expression, most: int, frame: CallFrame) -> list[int]:
         if isinstance(index, WholeRange):
             return list(range(most))
         given = scalars(self.value(index, replace(frame, last=most)))
@@ -266,15 +268,15 @@ class Evaluator(ABC):
             return [at for at, one in enumerate(given) if one.value]
         for one in given:
             if one.value != int(one.value) or not 1 <= one.value <= most:
-                raise ChartFault(f"the index {one.value:g} of {most} values, which are counted from 1")
+                raise DrawnFault(f"the index {one.value:g} of {most} values, which are counted from 1")
         return [int(one.value) - 1 for one in given]
 
-    def _matrix(self, rows: Sequence[Sequence[Expression]], frame: Frame) -> MatlabValue:
+    def _matrix(self, rows: Sequence[Sequence[Expression]], frame: CallFrame) -> MatlabValue:
         made = [[self.value(one, frame) for one in row] for row in rows]
         flat = [[one for value in row for one in scalars(value)] for row in made]
         width = max(map(len, flat), default=0)
         if any(len(row) != width for row in flat):
-            raise ChartFault("the rows of a matrix are not as long as each other")
+            raise DrawnFault("the rows of a matrix are not as long as each other")
         kinds = [one.kind for row in flat for one in row]
         kind = next(
             (k for k in kinds if k not in ("double", "logical", LITERAL)), kinds[0] if kinds else "double"
@@ -284,13 +286,13 @@ class Evaluator(ABC):
         assert isinstance(found, ArrayOf)
         return array(found.values, found.rows, found.columns)
 
-    def _range(self, one: ColonRange, frame: Frame) -> list[float]:
+    def _range(self, one: ColonRange, frame: CallFrame) -> list[float]:
         start, stop = (scalar(self.value(end, frame)).value for end in (one.start, one.stop))
         step = 1 if one.step is None else scalar(self.value(one.step, frame)).value
         count = int((stop - start) / step + 1e-10) + 1 if step and (stop - start) / step >= 0 else 0
         if count > MOST_TURNS:
-            raise ChartFault(f"a range of {count:,} numbers")
+            raise DrawnFault(f"a range of {count:,} numbers")
         return [start + step * number for number in range(count)]
 
 
-__all__ = ["ChartWords", "Dropped", "Evaluator", "Frame"]
+__all__ = ["CallFrame", "ChartWords", "Dropped", "Evaluator"]

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil, floor, fmod, inf, isfinite, isinf, isnan, nan, sqrt, trunc
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.operations import BITS, binary
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
@@ -10,7 +11,6 @@ from rovercheck.checker.drawn.interpret.values import (
     TYPES,
     WHOLE,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -116,7 +116,7 @@ def _bitwise(sign: str) -> Builtin:
         kind = left.kind if left.kind in WHOLE else right.kind if right.kind in WHOLE else "double"
         one, other = (int(v.value) for v in (left, right))
         if min(one, other) < 0 and kind not in WHOLE:
-            raise ChartFault(f"bits of {min(one, other)}: give an integer type, as in uint8(x)")
+            raise DrawnFault(f"bits of {min(one, other)}: give an integer type, as in uint8(x)")
         return Scalar(kind, BITS[sign](one, other) if kind in WHOLE else float(BITS[sign](one, other)))
 
     return apply
@@ -134,7 +134,7 @@ def _shift(arguments: Arguments, rules: NumberRules) -> MatlabValue:
 def _complement(arguments: Arguments, rules: NumberRules) -> MatlabValue:
     value = scalar(arguments[0])
     if value.kind not in WHOLE:
-        raise ChartFault("bitcmp of a number without an integer type: write bitcmp(uint8(x))")
+        raise DrawnFault("bitcmp of a number without an integer type: write bitcmp(uint8(x))")
     return Scalar(value.kind, in_range(~int(value.value), value.kind, saturates=False))
 
 
@@ -163,7 +163,7 @@ def _filled(value: float) -> Builtin:
         sizes = [int(one.value) for argument in arguments for one in scalars(argument)]
         rows, columns = (sizes * 2)[:2] if len(sizes) == 1 else (sizes or [1, 1])[:2]
         if not 0 <= rows * columns <= MOST_VALUES:
-            raise ChartFault(f"a matrix of {rows}x{columns} is too large")
+            raise DrawnFault(f"a matrix of {rows}x{columns} is too large")
         return array([double(value)] * (rows * columns), rows, columns)
 
     return apply

@@ -7,15 +7,16 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Literal
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
 from rovercheck.checker.drawn.interpret.clock import ChartClock
-from rovercheck.checker.drawn.interpret.evaluate import Dropped, Frame
+from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
-from rovercheck.checker.drawn.interpret.values import ChartFault, MatlabValue, NumberRules, Scalar, logical
+from rovercheck.checker.drawn.interpret.values import MatlabValue, NumberRules, Scalar, logical
 from rovercheck.checker.drawn.parsed import (
     FunctionNode,
     JunctionNode,
@@ -37,7 +38,7 @@ Found = list[TransitionNode] | Literal["end"] | None
 class ChartMachine:
     """One chart with its memory.  ``named`` are values of parameters, as written, by their names.
 
-    Raises ``ChartFault`` for what has no value.
+    Raises ``DrawnFault`` for what has no value.
     """
 
     def __init__(
@@ -63,11 +64,11 @@ class ChartMachine:
     def _initial(self, text: str) -> MatlabValue:
         return self._runner.value(parse_expression(text, self.chart.language), self._frame(self.chart.root))
 
-    def _frame(self, node: StateNode, holds: StateNode | None = None) -> Frame:
+    def _frame(self, node: StateNode, holds: StateNode | None = None) -> CallFrame:
         """Where a text of a state stands; what it does further is dropped once ``holds`` is not active."""
         if holds is None:
-            return Frame(node, self.rules)
-        return Frame(node, self.rules, lambda: self._is_active(holds))
+            return CallFrame(node, self.rules)
+        return CallFrame(node, self.rules, lambda: self._is_active(holds))
 
     def _is_active(self, node: StateNode) -> bool:
         return node.parent is None or node in self.active
@@ -162,7 +163,7 @@ class ChartMachine:
         return self._search(transitions, self._frame(source, source))
 
     def _search(
-        self, transitions: Sequence[TransitionNode], frame: Frame, in_function: bool = False
+        self, transitions: Sequence[TransitionNode], frame: CallFrame, in_function: bool = False
     ) -> Found:
         """The same, with the texts in a frame; in a function transition actions run at once, too."""
         waiting, path = [iter(transitions)], list[TransitionNode]()
@@ -174,7 +175,7 @@ class ChartMachine:
                 continue
             self._tried += 1
             if self._tried > MOST_SEGMENTS:
-                raise ChartFault(f"{one} is in a loop of junctions without end: no guard ends it")
+                raise DrawnFault(f"{one} is in a loop of junctions without end: no guard ends it")
             if not self._valid(one, frame):
                 continue
             self._runner.run(one.label.condition_actions, frame)
@@ -190,23 +191,23 @@ class ChartMachine:
             waiting.append(iter(one.target.outgoing))
         return None
 
-    def _valid(self, one: TransitionNode, frame: Frame) -> bool:
+    def _valid(self, one: TransitionNode, frame: CallFrame) -> bool:
         label = one.label
         if label.events and not any(self._occurs(event, frame) for event in label.events):
             return False
         try:
             return label.guard is None or self._runner.truth(label.guard, frame)
-        except ChartFault as fault:
-            raise ChartFault(f"{one}: {fault}") from fault
+        except DrawnFault as fault:
+            raise DrawnFault(f"{one}: {fault}") from fault
 
-    def _occurs(self, event: Expression, frame: Frame) -> bool:
+    def _occurs(self, event: Expression, frame: CallFrame) -> bool:
         """Whether an event is the current one, or a temporal condition holds."""
         match event:
             case Name(name) | Member(_, name):
                 return bool(self._events) and self._events[-1] == name
         value = self.clock.word(event, frame, self._now, self._runner)
         if value is None:
-            raise ChartFault("it is neither an event nor a time")
+            raise DrawnFault("it is neither an event nor a time")
         return isinstance(value, Scalar) and value.truth
 
     @property
@@ -222,7 +223,7 @@ class ChartMachine:
         with suppress(Dropped):
             self._exit_children(scope)
             for one in path:
-                frame = Frame(source, self.rules, lambda: self._may_go_on(scope))
+                frame = CallFrame(source, self.rules, lambda: self._may_go_on(scope))
                 self._runner.run(one.label.transition_actions, frame)
             target = path[-1].target
             assert target is not None, "a complete path ends at a state"
@@ -292,10 +293,10 @@ class ChartMachine:
         elif node.children:
             found = self._path(node.defaults, node)
             if not isinstance(found, list):
-                raise ChartFault(f"no default transition of {node.path} leads to a state now")
+                raise DrawnFault(f"no default transition of {node.path} leads to a state now")
             self.fired += found
             for one in found:
-                frame = Frame(node, self.rules, lambda: self._may_go_on(node))
+                frame = CallFrame(node, self.rules, lambda: self._may_go_on(node))
                 self._runner.run(one.label.transition_actions, frame)
             target = found[-1].target
             assert target is not None
@@ -303,7 +304,7 @@ class ChartMachine:
 
     # --- words of the chart --------------------------------------------------------------------------------
 
-    def word(self, expression: Expression, frame: Frame) -> MatlabValue | None:
+    def word(self, expression: Expression, frame: CallFrame) -> MatlabValue | None:
         """Times, changes, and whether a state is active."""
         match expression:
             case Applied(Name("in"), (state,)):
@@ -313,7 +314,7 @@ class ChartMachine:
     def _holds(self, condition: Expression, node: StateNode) -> bool:
         return self._runner.truth(condition, self._frame(node))
 
-    def sent(self, expression: Expression, frame: Frame) -> bool:
+    def sent(self, expression: Expression, frame: CallFrame) -> bool:
         """Send an event to the whole chart, or to one state, and have it answered at once."""
         match expression:
             case Applied(Name("send"), (event, *to)) if len(to) < 2:
@@ -328,19 +329,19 @@ class ChartMachine:
         self._broadcast(name, None if owner is None else state_of(owner, frame.node))
         return True
 
-    def _is_event(self, name: str, frame: Frame) -> bool:
+    def _is_event(self, name: str, frame: CallFrame) -> bool:
         if name in (frame.local or {}):
             return False
         found = next((node.events[name] for node in self.chart.root.every() if name in node.events), None)
         if found is not None and found.scope == "output":
-            raise ChartFault(
+            raise DrawnFault(
                 f"{name} is an event to other blocks, which is not known here: give them a datum"
             )
         return found is not None
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         if len(self._events) >= MOST_NESTED:
-            raise ChartFault(f"{name} is sent while {MOST_NESTED} events are answered: they send each other")
+            raise DrawnFault(f"{name} is sent while {MOST_NESTED} events are answered: they send each other")
         if receiver is not None and receiver not in self.active:
             return
         self.clock.saw(name, self.active)
@@ -359,17 +360,17 @@ class ChartMachine:
         """A function of the chart: a MATLAB function, or a flow chart with its own data."""
         if function.script:
             script = {one.signature.name: one for one in function.script}
-            frame = Frame(function.holder, self.rules, script=script, calls=calls)
+            frame = CallFrame(function.holder, self.rules, script=script, calls=calls)
             frame.persistent = self._persistent.setdefault(function.drawn.ssid, {})
             return self._runner.script(function.script[0], arguments, frame)
         if function.flow is None or function.drawn.function == "Simulink":
-            raise ChartFault(f"{function.signature.name} is a function that is not known here")
+            raise DrawnFault(f"{function.signature.name} is a function that is not known here")
         flow, signature = function.flow, function.signature
         for name, one in flow.data.items():
             self.memory.reset(one.ssid)
             if name in signature.inputs:
                 self.memory.write(one.ssid, arguments[signature.inputs.index(name)])
-        frame = Frame(flow, self.rules, calls=calls)
+        frame = CallFrame(flow, self.rules, calls=calls)
         self._search(flow.defaults, frame, in_function=True)
         return [self.memory.values[flow.data[name].ssid] for name in signature.outputs]
 

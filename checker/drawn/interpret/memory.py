@@ -4,10 +4,10 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
     TYPES,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -38,7 +38,7 @@ class TypeTable:
         return TypeTable(enumerations, {one.name: one for one in model.buses})
 
     def kind(self, written: str) -> str:
-        """A type as values have it; empty where it is inherited.  Raises ``ChartFault``."""
+        """A type as values have it; empty where it is inherited.  Raises ``DrawnFault``."""
         text = written.strip()
         if text.startswith("Inherit"):
             return ""
@@ -50,9 +50,9 @@ class TypeTable:
             name = text.removeprefix(prefix).strip()
             if text.startswith(prefix) or name in names:
                 if name not in names:
-                    raise ChartFault(f"the type {name} is not there: name the file that defines it")
+                    raise DrawnFault(f"the type {name} is not there: name the file that defines it")
                 return f"{prefix} {name}"
-        raise ChartFault(f"the type {text!r} is not known")
+        raise DrawnFault(f"the type {text!r} is not known")
 
     def initial(self, kind: str, rows: int = 1, columns: int = 1) -> MatlabValue:
         """The value of a type that nobody has written to: 0, false, the default member."""
@@ -80,7 +80,7 @@ class TypeTable:
         ]
         if len(found) > 1:
             told = " and ".join(one.name for one in found)
-            raise ChartFault(f"{name} is in {told}: write {found[0].name}.{name}")
+            raise DrawnFault(f"{name} is in {told}: write {found[0].name}.{name}")
         return Scalar(f"{ENUM} {found[0].name}", found[0].members[name]) if found else None
 
 
@@ -92,7 +92,7 @@ def dimensions(text: str) -> tuple[int, int]:
     if len(sizes) == 1:
         return sizes[0], 1
     if len(sizes) != 2:
-        raise ChartFault(f"a size of {text!r}: matrices have two dimensions here")
+        raise DrawnFault(f"a size of {text!r}: matrices have two dimensions here")
     return sizes[0], sizes[1]
 
 
@@ -113,14 +113,14 @@ class ChartMemory:
     def declare_all(
         self, chart: ParsedChart, named: Mapping[str, str], value_of: Callable[[str], MatlabValue]
     ) -> None:
-        """All data of a chart; ``named`` are values of parameters, as written.  Raises ``ChartFault``."""
+        """All data of a chart; ``named`` are values of parameters, as written.  Raises ``DrawnFault``."""
         for node in chart.root.every():
             for data in (node.data, *(function.data for function in node.functions.values())):
                 for one in data.values():
                     self.declare(one, _initial_of(one, chart, named), value_of)
 
     def declare(self, one: DrawnData, initial: str, value_of: Callable[[str], MatlabValue]) -> None:
-        """A datum with its initial value, as written.  Raises ``ChartFault``."""
+        """A datum with its initial value, as written.  Raises ``DrawnFault``."""
         kind = self.types.kind(one.type)
         rows, columns = dimensions(one.size)
         self._data[one.ssid], self._kinds[one.ssid] = one, kind
@@ -144,14 +144,14 @@ class ChartMemory:
             kind = self._kinds[ssid] = "double" if kind == "literal" else kind
         if isinstance(value, Structure) or kind.startswith(BUS):
             if value.kind != kind:
-                raise ChartFault(f"{self._data[ssid].name} is of {kind}, and its value of {value.kind}")
+                raise DrawnFault(f"{self._data[ssid].name} is of {kind}, and its value of {value.kind}")
             self.values[ssid] = value
             return
         size = shape(self._initial[ssid])
         made = self._fitted(value, kind, size)
         if shape(made) != size:
             told = "x".join(map(str, shape(made)))
-            raise ChartFault(f"{self._data[ssid].name} is of {size[0]}x{size[1]}, and its value of {told}")
+            raise DrawnFault(f"{self._data[ssid].name} is of {size[0]}x{size[1]}, and its value of {told}")
         self.values[ssid] = made
 
     def reset(self, ssid: int) -> None:
@@ -168,7 +168,7 @@ def _initial_of(one: DrawnData, chart: ParsedChart, named: Mapping[str, str]) ->
     if one.scope != "parameter" and not one.from_workspace:
         return one.initial
     if one.name not in named:
-        raise ChartFault(
+        raise DrawnFault(
             f"{chart.drawn.path}: the value of {one.name} stands in no file: name a script that says "
             f"`{one.name} = ...`"
         )

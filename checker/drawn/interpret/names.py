@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator, Sequence
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
-from rovercheck.checker.drawn.interpret.values import ChartFault
 from rovercheck.checker.drawn.parsed import StateNode
 
 
 def state_of(expression: Expression, node: StateNode) -> StateNode:
     """The state that a path means in a state: from the nearest one around it in which it is found.
 
-    Otherwise the only one in the chart whose path ends so.  Raises ``ChartFault``.
+    Otherwise the only one in the chart whose path ends so.  Raises ``DrawnFault``.
     """
     names = names_in(expression)
     *_, root = node.lineage()
@@ -20,18 +20,18 @@ def state_of(expression: Expression, node: StateNode) -> StateNode:
             return found
     every = [one for one in root.every() if _ends(one, names)]
     if len(every) != 1:
-        raise ChartFault(f"{'.'.join(names)} is {'no state' if not every else 'several states'}")
+        raise DrawnFault(f"{'.'.join(names)} is {'no state' if not every else 'several states'}")
     return every[0]
 
 
 def names_in(expression: Expression) -> list[str]:
-    """The names of a path, as `Cars.Red`.  Raises ``ChartFault``."""
+    """The names of a path, as `Cars.Red`.  Raises ``DrawnFault``."""
     match expression:
         case Name(name):
             return [name]
         case Member(owner, name):
             return [*names_in(owner), name]
-    raise ChartFault("it is no name of a state or an event")
+    raise DrawnFault("it is no name of a state or an event")
 
 
 def _below(node: StateNode, names: Sequence[str]) -> StateNode | None:

@@ -4,11 +4,11 @@ import operator
 from collections.abc import Callable, Mapping
 from math import copysign, fmod, inf, isinf, isnan, nan, trunc
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
     WHOLE,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -37,15 +37,15 @@ BITS: Mapping[str, Callable[[int, int], int]] = {
 
 
 def binary(sign: str, left: MatlabValue, right: MatlabValue, rules: NumberRules) -> MatlabValue:
-    """An operator between two values, of which one may be a scalar.  Raises ``ChartFault``."""
+    """An operator between two values, of which one may be a scalar.  Raises ``DrawnFault``."""
     if not isinstance(left, ArrayOf) and not isinstance(right, ArrayOf):
         [one], [other] = scalars(left), scalars(right)
         return _scalar(sign, one, other, rules)
     if sign in ("*", "/", "^", "\\") and isinstance(left, ArrayOf) and isinstance(right, ArrayOf):
-        raise ChartFault(f"a product of matrices is not known here: write .{sign} for element by element")
+        raise DrawnFault(f"a product of matrices is not known here: write .{sign} for element by element")
     rows, columns = shape(left if isinstance(left, ArrayOf) else right)
     if isinstance(left, ArrayOf) and isinstance(right, ArrayOf) and shape(right) != (rows, columns):
-        raise ChartFault(
+        raise DrawnFault(
             f"{sign} between matrices of {rows}x{columns} and {'x'.join(map(str, shape(right)))}"
         )
     size = rows * columns
@@ -86,12 +86,12 @@ def _compared(sign: str, left: Scalar, right: Scalar) -> bool:
 def _kind(sign: str, left: Scalar, right: Scalar, rules: NumberRules) -> str:
     """The type of a result."""
     if left.kind.startswith("Enum:") or right.kind.startswith("Enum:"):
-        raise ChartFault(f"{sign} computes with no member of an enumeration: convert it, as in int32(x)")
+        raise DrawnFault(f"{sign} computes with no member of an enumeration: convert it, as in int32(x)")
     if rules.c:
         return _kind_in_c(left, right)
     kinds = dict.fromkeys(one.kind for one in (left, right) if one.kind in WHOLE)
     if len(kinds) > 1:
-        raise ChartFault(f"{sign} between {' and '.join(kinds)}: MATLAB takes integers of one type only")
+        raise DrawnFault(f"{sign} between {' and '.join(kinds)}: MATLAB takes integers of one type only")
     return next(iter(kinds), "single" if "single" in (left.kind, right.kind) else "double")
 
 
@@ -114,7 +114,7 @@ def _pattern(value: int, kind: str) -> int:
 def _shifted(sign: str, left: Scalar, right: Scalar) -> Scalar:
     by, kind = int(right.value), left.kind
     if not 0 <= by < 64 or not left.whole:
-        raise ChartFault(f"{left.kind} {sign} {by} has no meaning: integers are shifted by 0 to 63 bits")
+        raise DrawnFault(f"{left.kind} {sign} {by} has no meaning: integers are shifted by 0 to 63 bits")
     moved = int(left.value) << by if sign == "<<" else int(left.value) >> by
     return Scalar(kind, _pattern(moved, kind))
 
@@ -126,12 +126,12 @@ def _of_integers(sign: str, one: float, other: float, kind: str, rules: NumberRu
         return _divided(one, other, kind, rules)
     elif sign == "%%":
         if other == 0:
-            raise ChartFault("the remainder of a division by 0")
+            raise DrawnFault("the remainder of a division by 0")
         exact = int(fmod(one, other))
     elif sign in ("^", ".^"):
         exact = one**other if other >= 0 or one != 0 else inf
     else:
-        raise ChartFault(f"{sign} has no meaning between integers")
+        raise DrawnFault(f"{sign} has no meaning between integers")
     if isinstance(exact, float):
         return int(converted(Scalar("double", exact), kind, rules).value) if kind != LITERAL else trunc(exact)
     return exact if kind == LITERAL else in_range(exact, kind, rules.saturates)
@@ -141,7 +141,7 @@ def _divided(one: float, other: float, kind: str, rules: NumberRules) -> int:
     """C cuts towards 0; MATLAB rounds to the nearest, and stops at the ends of a division by 0."""
     if other == 0:
         if rules.c:
-            raise ChartFault("a division by 0")
+            raise DrawnFault("a division by 0")
         low, high = WHOLE[kind]
         return 0 if one == 0 or isnan(one) else high if one > 0 else low
     if isinstance(one, int) and isinstance(other, int):
@@ -170,15 +170,15 @@ def _of_floats(sign: str, one: float, other: float) -> float:
         except OverflowError:
             return inf
         if isinstance(found, complex):
-            raise ChartFault(f"{one:g} to the power of {other:g} is no real number")
+            raise DrawnFault(f"{one:g} to the power of {other:g} is no real number")
         return float(found)
     if sign == "%%" and other != 0:
         return fmod(one, other)
-    raise ChartFault(f"{sign} has no meaning between {one:g} and {other:g}")
+    raise DrawnFault(f"{sign} has no meaning between {one:g} and {other:g}")
 
 
 def unary(sign: str, value: MatlabValue, rules: NumberRules) -> MatlabValue:
-    """An operator before a value, or a transpose behind it.  Raises ``ChartFault``."""
+    """An operator before a value, or a transpose behind it.  Raises ``DrawnFault``."""
     if sign in ("'", ".'"):
         if not isinstance(value, ArrayOf):
             return value
@@ -207,7 +207,7 @@ def _one(sign: str, value: Scalar, rules: NumberRules) -> Scalar:
             if (plain.kind in WHOLE)
             else Scalar(plain.kind, -plain.value)
         )
-    raise ChartFault(f"{sign} has no meaning before a value of the type {value.kind}")
+    raise DrawnFault(f"{sign} has no meaning before a value of the type {value.kind}")
 
 
 __all__ = ["binary", "unary"]

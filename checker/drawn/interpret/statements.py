@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.actions import (
     ActionStatement,
     Assignment,
@@ -20,13 +21,12 @@ from rovercheck.checker.drawn.grammar.actions import (
 )
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Indexed, Member, Name
-from rovercheck.checker.drawn.interpret.evaluate import MOST_TURNS, Dropped, Evaluator, Frame
+from rovercheck.checker.drawn.interpret.evaluate import MOST_TURNS, CallFrame, Dropped, Evaluator
 from rovercheck.checker.drawn.interpret.memory import datum_of
 from rovercheck.checker.drawn.interpret.operations import binary
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
     ArrayOf,
-    ChartFault,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -52,12 +52,12 @@ class StatementRunner(Evaluator):
     """Executes statements, and what they call."""
 
     def script(
-        self, function: ScriptFunction, values: Sequence[MatlabValue], caller: Frame
+        self, function: ScriptFunction, values: Sequence[MatlabValue], caller: CallFrame
     ) -> list[MatlabValue]:
         """Call a MATLAB function with these values."""
         signature = function.signature
         if len(values) > len(signature.inputs):
-            raise ChartFault(
+            raise DrawnFault(
                 f"{signature.name} takes {len(signature.inputs)} values, and {len(values)} are given"
             )
         pairs = zip(signature.inputs, values, strict=False)
@@ -67,19 +67,19 @@ class StatementRunner(Evaluator):
         self.body(function, frame)
         return [local[name] for name in signature.outputs if name in local]
 
-    def body(self, function: ScriptFunction, frame: Frame) -> None:
+    def body(self, function: ScriptFunction, frame: CallFrame) -> None:
         """Execute a function in its frame, in which the variables stay."""
         with suppress(_Return):
             self.run(function.body, frame)
 
     # --- statements ----------------------------------------------------------------------------------------
 
-    def run(self, statements: Iterable[ActionStatement], frame: Frame) -> None:
-        """Execute statements.  Raises ``ChartFault``, and ``Dropped`` where the state was left."""
+    def run(self, statements: Iterable[ActionStatement], frame: CallFrame) -> None:
+        """Execute statements.  Raises ``DrawnFault``, and ``Dropped`` where the state was left."""
         for one in statements:
             self._statement(one, frame)
 
-    def _statement(self, one: ActionStatement, frame: Frame) -> None:
+    def _statement(self, one: ActionStatement, frame: CallFrame) -> None:
         match one:
             case Assignment(targets, value, sign):
                 self._assign(targets, value, sign, frame)
@@ -91,7 +91,7 @@ class StatementRunner(Evaluator):
                     if not frame.alive():
                         raise Dropped
                 else:
-                    self._several(expression, frame, 0)
+                    self._several(expression, frame)
             case IfStatement(branches, otherwise):
                 taken = next((b.body for b in branches if self.truth(b.condition, frame)), otherwise)
                 self.run(taken, frame)
@@ -118,11 +118,11 @@ class StatementRunner(Evaluator):
                 for name in names:
                     frame.persistent.setdefault(name, ArrayOf("double", 0, 0, ()))
 
-    def _same(self, value: MatlabValue, case: Expression, frame: Frame) -> bool:
+    def _same(self, value: MatlabValue, case: Expression, frame: CallFrame) -> bool:
         return any(one.value == scalar(value).value for one in scalars(self.value(case, frame)))
 
     def _loop(
-        self, one: ForLoop | WhileLoop, turns: Sequence[MatlabValue] | None, name: str, frame: Frame
+        self, one: ForLoop | WhileLoop, turns: Sequence[MatlabValue] | None, name: str, frame: CallFrame
     ) -> None:
         for number in range(MOST_TURNS if turns is None else len(turns)):
             if turns is not None:
@@ -136,10 +136,10 @@ class StatementRunner(Evaluator):
             except _Continue:
                 continue
         if turns is None:
-            raise ChartFault(f"a loop of more than {MOST_TURNS:,} turns")
+            raise DrawnFault(f"a loop of more than {MOST_TURNS:,} turns")
 
     def _assign(
-        self, targets: Sequence[Expression | None], value: Expression, sign: str | None, frame: Frame
+        self, targets: Sequence[Expression | None], value: Expression, sign: str | None, frame: CallFrame
     ) -> None:
         if len(targets) == 1 and targets[0] is not None:
             new = self.value(value, frame)
@@ -147,19 +147,19 @@ class StatementRunner(Evaluator):
                 new = binary(sign, self.value(targets[0], frame), new, frame.rules)
             self._write(targets[0], new, frame)
             return
-        given = self._several(value, frame, len(targets))
+        given = self._several(value, frame)
         for target, one in zip(targets, given, strict=False):
             if target is not None:
                 self._write(target, one, frame)
 
-    def _write(self, target: Expression, value: MatlabValue, frame: Frame) -> None:
+    def _write(self, target: Expression, value: MatlabValue, frame: CallFrame) -> None:
         match target:
             case Name(name):
                 self._set(name, value, frame)
             case Member(owner, name):
                 whole = self.value(owner, frame)
                 if not isinstance(whole, Structure) or name not in whole.elements:
-                    raise ChartFault(f"there is no element {name} to write to")
+                    raise DrawnFault(f"there is no element {name} to write to")
                 old = whole.elements[name]
                 kind = scalars(old)[0].kind if not isinstance(old, Structure) else old.kind
                 made = value if isinstance(value, Structure) else each_converted(value, kind, frame.rules)
@@ -173,23 +173,23 @@ class StatementRunner(Evaluator):
                 whole = self.value(of, frame)
                 at = int(scalar(self.value(index, frame)).value) - self._first(of, frame)
                 if not 0 <= at < len(scalars(whole)):
-                    raise ChartFault(f"the index {at} of {len(scalars(whole))} values")
+                    raise DrawnFault(f"the index {at} of {len(scalars(whole))} values")
                 self._write(of, self._with(whole, [at], value, frame), frame)
             case _:
-                raise ChartFault("what is assigned to is no datum")
+                raise DrawnFault("what is assigned to is no datum")
 
     def _with(
-        self, whole: MatlabValue, places: Sequence[int], value: MatlabValue, frame: Frame
+        self, whole: MatlabValue, places: Sequence[int], value: MatlabValue, frame: CallFrame
     ) -> MatlabValue:
         found, given = list(scalars(whole)), scalars(value)
         if len(given) not in (1, len(places)):
-            raise ChartFault(f"{len(given)} values are written to {len(places)} places")
+            raise DrawnFault(f"{len(given)} values are written to {len(places)} places")
         for number, at in enumerate(places):
             new = given[number if len(given) > 1 else 0]
             [found[at]] = scalars(each_converted(new, found[at].kind, frame.rules))
         return array(found, *shape(whole))
 
-    def _set(self, name: str, value: MatlabValue, frame: Frame) -> None:
+    def _set(self, name: str, value: MatlabValue, frame: CallFrame) -> None:
         if name in frame.kept:
             frame.persistent[name] = value
         elif frame.local is not None and (name in frame.local or datum_of(frame.node, name) is None):
@@ -197,7 +197,7 @@ class StatementRunner(Evaluator):
         elif (datum := datum_of(frame.node, name)) is not None:
             self.memory.write(datum.ssid, value)
         else:
-            raise ChartFault(f"there is no datum {name} to write to")
+            raise DrawnFault(f"there is no datum {name} to write to")
 
 
 __all__ = ["StatementRunner"]

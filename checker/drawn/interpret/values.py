@@ -7,7 +7,7 @@ from typing import TypeAlias, Union
 
 import numpy as np
 
-from rovercheck.checker.drawn.faults import ChartFault
+from rovercheck.checker.drawn.faults import DrawnFault
 
 WHOLE: Mapping[str, tuple[int, int]] = {
     f"{sign}int{bits}": (0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
@@ -45,7 +45,7 @@ class Scalar:
     def truth(self) -> bool:
         """As a condition: anything but 0."""
         if isnan(self.value):
-            raise ChartFault("NaN is no condition: it is neither true nor false")
+            raise DrawnFault("NaN is no condition: it is neither true nor false")
         return self.value != 0
 
 
@@ -78,28 +78,30 @@ TRUE, FALSE = Scalar("logical", 1), Scalar("logical", 0)
 
 
 def logical(value: bool) -> Scalar:
+    """A truth value."""
     return TRUE if value else FALSE
 
 
 def double(value: float) -> Scalar:
+    """A real number."""
     return Scalar("double", float(value))
 
 
 def scalars(value: MatlabValue) -> Sequence[Scalar]:
-    """The scalars of a value.  Raises ``ChartFault`` for a structure."""
+    """The scalars of a value.  Raises ``DrawnFault`` for a structure."""
     match value:
         case Scalar():
             return (value,)
         case ArrayOf():
             return value.values
-    raise ChartFault("a structure is no number: name one of its elements")
+    raise DrawnFault("a structure is no number: name one of its elements")
 
 
 def scalar(value: MatlabValue) -> Scalar:
-    """A value that is one number.  Raises ``ChartFault``."""
+    """A value that is one number.  Raises ``DrawnFault``."""
     found = scalars(value)
     if len(found) != 1:
-        raise ChartFault(f"{len(found)} values stand where one must")
+        raise DrawnFault(f"{len(found)} values stand where one must")
     return found[0]
 
 
@@ -137,7 +139,7 @@ def single(value: float) -> float:
 
 
 def converted(value: Scalar, kind: str, rules: NumberRules) -> Scalar:
-    """A scalar in another type: rounded, and in its range.  Raises ``ChartFault``."""
+    """A scalar in another type: rounded, and in its range.  Raises ``DrawnFault``."""
     if value.kind == kind:
         return value
     number = value.value
@@ -151,9 +153,9 @@ def converted(value: Scalar, kind: str, rules: NumberRules) -> Scalar:
         return logical(value.truth)
     if kind == LITERAL or kind.startswith("Enum:"):
         if isinstance(number, float) and not number.is_integer():
-            raise ChartFault(f"{number:g} is no member of {kind.removeprefix('Enum:').strip()}")
+            raise DrawnFault(f"{number:g} is no member of {kind.removeprefix('Enum:').strip()}")
         return Scalar(kind, int(number))
-    raise ChartFault(f"the type {kind!r} is not known")
+    raise DrawnFault(f"the type {kind!r} is not known")
 
 
 def _whole(number: float, kind: str, rules: NumberRules) -> int:
@@ -177,7 +179,7 @@ def each_converted(value: MatlabValue, kind: str, rules: NumberRules) -> MatlabV
 
 
 __all__ = [
-    "FALSE", "FLOATS", "LITERAL", "TRUE", "TYPES", "WHOLE", "ArrayOf", "ChartFault", "MatlabValue",
+    "FALSE", "LITERAL", "TRUE", "TYPES", "WHOLE", "ArrayOf", "MatlabValue",
     "NumberRules", "Scalar", "Structure", "array", "converted", "double", "each_converted", "in_range",
     "logical", "nearest", "scalar", "scalars", "shape", "single",
 ]  # fmt: skip

@@ -4,23 +4,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
-from rovercheck.checker.drawn.lower.arithmetic import (
+from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary
+from rovercheck.checker.drawn.lower.builtins import greatest, least
+from rovercheck.checker.drawn.lower.conversions import (
     IntegerRules,
     as_condition,
     as_number,
-    binary,
-    ceiling_of,
     converted,
     each_converted,
-    floor_of,
     in_range,
-    nearest_of,
-    scalar_of,
-    toward_zero,
-    unary,
 )
-from rovercheck.checker.drawn.lower.builtins import greatest, least
 from rovercheck.checker.drawn.lower.kinds import KindTable
+from rovercheck.checker.drawn.lower.rounding import ceiling_of, floor_of, nearest_of, toward_zero
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     NotLowered,

@@ -1,36 +1,35 @@
 """MATLAB's functions of numbers as formulas, as far as charts use them."""
 
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import reduce
 from math import isqrt
 
-from rovercheck.checker.drawn.lower.arithmetic import (
+from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of
+from rovercheck.checker.drawn.lower.bits import bit_of, complement, shifted
+from rovercheck.checker.drawn.lower.conversions import (
     IntegerRules,
     as_condition,
     as_number,
-    binary,
-    bit_of,
+    each_converted,
+    in_range,
+)
+from rovercheck.checker.drawn.lower.kinds import KindTable
+from rovercheck.checker.drawn.lower.rounding import (
     by_cases,
     ceiling_of,
-    complement,
-    each_converted,
     floor_of,
-    in_range,
     modulo,
     nearest_of,
     negated,
     remainder,
-    scalar_of,
-    shifted,
     sum_of,
     toward_zero,
 )
-from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     LOGICAL,
     REALS,
-    UNTYPED,
     NotLowered,
     Symbolic,
     SymbolicScalar,
@@ -136,7 +135,7 @@ def _extreme(join: Callable[[Expr, Expr], Expr]) -> Builtin:
         every = flat(arguments[0])
         if not every:
             raise NotLowered("the least or greatest of no values")
-        return reduce(lambda sofar, one: pair([sofar, one], rules, kinds), every[1:], every[0])
+        return reduce(lambda sofar, one: single_of(pair([sofar, one], rules, kinds)), every[1:], every[0])
 
     return apply
 
@@ -153,19 +152,26 @@ def _shift(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbo
 def _get_bit(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
     value, place = map(single_of, arguments)
 
-    def at(number_: object) -> Expr:
-        return chosen(bit_of(as_number(value), int(str(number_)) - 1), const(1), const(0))
+    def at(number_: Fraction) -> Expr:
+        return chosen(bit_of(as_number(value), _whole(number_) - 1), const(1), const(0))
 
     return SymbolicScalar(value.kind, by_cases(as_number(place), at))
+
+
+def _whole(value: Fraction) -> int:
+    """The number of a bit.  Raises ``ValueError`` where it is not whole."""
+    if value.denominator != 1:
+        raise ValueError(f"{value} is not whole")
+    return value.numerator
 
 
 def _set_bit(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
     value, place, *to = map(single_of, arguments)
     on, expr = as_condition(to[0]) if to else TRUE, as_number(value)
 
-    def at(number_: object) -> Expr:
-        weight = 2 ** (int(str(number_)) - 1)
-        now = bit_of(expr, int(str(number_)) - 1)
+    def at(number_: Fraction) -> Expr:
+        bit = _whole(number_) - 1
+        weight, now = 2**bit, bit_of(expr, bit)
         added = chosen(folded(all_of(on, ~now)), const(weight), const(0))
         taken = chosen(folded(all_of(~on, now)), const(-weight), const(0))
         return sum_of(expr, sum_of(added, taken))
@@ -249,4 +255,4 @@ BUILTINS: Mapping[str, Builtin] = {
 NOTHING = frozenset({"fprintf", "disp", "printf", "coder.inline", "coder.extrinsic", "assert"})
 """Calls that do nothing to a chart."""
 
-__all__ = ["BUILTINS", "NOTHING", "UNTYPED", "greatest", "least"]
+__all__ = ["BUILTINS", "NOTHING", "greatest", "least"]

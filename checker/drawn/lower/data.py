@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.arithmetic import nearest_of
 from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.rounding import nearest_of
 from rovercheck.checker.drawn.lower.symbols import (
     NotLowered,
     Symbolic,
@@ -48,6 +48,7 @@ class LearnedRange:
 
     @property
     def domain(self) -> Domain:
+        """All multiples of the resolution between the ends."""
         step = self.resolution
         return fixed((self.low // step) * step, -(-self.high // step) * step, step)
 
@@ -129,10 +130,8 @@ class DataTable:
             if self.ranges[var.name].widened(low, high, value.sort.resolution):
                 self.changed.add(var.name)
         own, new = value.sort.resolution, var.sort.resolution
-        if (
-            (own / new).denominator == 1
-            or isinstance(value, Const)
-            and (value.value * own / new).denominator == 1
+        if (own / new).denominator == 1 or (
+            isinstance(value, Const) and (value.value * own / new).denominator == 1
         ):
             return rescale(value, Num(new))
         if var.name not in self.ranges:
@@ -184,4 +183,4 @@ class DataTable:
         ]
 
 
-__all__ = ["DataTable", "LearnedRange"]
+__all__ = ["DataTable"]

@@ -94,28 +94,26 @@ def _domain(told: object) -> Domain:
     for key in ("low", "high", "resolution"):
         if not _is_number(told.get(key, 1)):
             raise ModelError(f"{key} = {brief(told[key])} is no number.")
-    return fixed(*(Fraction(told[key]) for key in ("low", "high")), Fraction(told.get("resolution", 1)), unit)
+    return fixed(Fraction(told["low"]), Fraction(told["high"]), Fraction(told.get("resolution", 1)), unit)
 
 
 def _is_number(value: object) -> bool:
     return isinstance(value, int | Decimal) and not isinstance(value, bool)
 
 
-def toml_number(value: Fraction) -> str:
+def _toml_number(value: Fraction) -> str:
     """A number as TOML has it."""
     if value.denominator == 1:
         return str(value.numerator)
     return repr(float(value))
 
 
-def toml_key(name: str) -> str:
+def _toml_key(name: str) -> str:
     """A name as a key of TOML, in quotes where it needs them."""
     plain = name.replace("_", "").replace("-", "")
-    return (
-        name
-        if plain.isascii() and plain.isalnum()
-        else '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    )
+    if plain.isascii() and plain.isalnum():
+        return name
+    return '"' + name.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 def lines_of(domains: Mapping[str, Domain]) -> Iterator[str]:
@@ -123,11 +121,12 @@ def lines_of(domains: Mapping[str, Domain]) -> Iterator[str]:
     for name, one in domains.items():
         resolution = getattr(one.sort, "resolution", Fraction(1))
         if one.dense:
-            ends = f"low = {toml_number(one.low * resolution)}, high = {toml_number(one.high * resolution)}"
-            step = "" if resolution == 1 else f", resolution = {toml_number(resolution)}"
-            yield f"{toml_key(name)} = {{ {ends}{step} }}"
+            ends = f"low = {_toml_number(one.low * resolution)}, high = {_toml_number(one.high * resolution)}"
+            step = "" if resolution == 1 else f", resolution = {_toml_number(resolution)}"
+            yield f"{_toml_key(name)} = {{ {ends}{step} }}"
         else:
-            yield f"{toml_key(name)} = {{ values = [{', '.join(toml_number(v * resolution) for v in one.values)}] }}"
+            values = ", ".join(_toml_number(raw * resolution) for raw in one.values)
+            yield f"{_toml_key(name)} = {{ values = [{values}] }}"
 
 
-__all__ = ["DomainsFile", "domains_path", "lines_of", "read_domains", "toml_key", "toml_number"]
+__all__ = ["DomainsFile", "domains_path", "lines_of", "read_domains"]

@@ -1,8 +1,7 @@
 """Expressions of charts and MATLAB functions as formulas."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import (
@@ -19,53 +18,39 @@ from rovercheck.checker.drawn.grammar.syntax import (
     NumberKind,
     TextLiteral,
     UnaryOperation,
-    WholeRange,
     parts,
 )
-from rovercheck.checker.drawn.lower.arithmetic import (
-    IntegerRules,
-    as_number,
-    binary,
-    condition_of,
-    each_converted,
-    unary,
-)
+from rovercheck.checker.drawn.lower.arithmetic import binary, unary
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
+from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.names import Scope, datum_in, function_in
+from rovercheck.checker.drawn.lower.elements import ElementWriter
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.lower.symbols import (
-    LOGICAL,
-    REALS,
+    TWO_TYPES,
     UNTYPED,
     NotLowered,
     Symbolic,
-    SymbolicArray,
     SymbolicScalar,
     SymbolicStructure,
-    chosen,
     filled,
-    flat,
     folded,
     leaves,
-    matrix,
     number,
     single_of,
-    size_of,
     truth,
 )
+from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.parsed import FunctionNode
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var
 
-MOST_ELEMENTS = 10_000
 
-
-class ExpressionWriter(ABC):
+class ExpressionWriter(ElementWriter):
     """Makes formulas of the texts of one chart; what it calls is written before the formula."""
 
     def __init__(self, table: DataTable, writer: ProgramWriter) -> None:
-        self.table, self.writer = table, writer
+        super().__init__(table, writer)
         self.cells: dict[int, Symbolic] = {}
         """The data of the chart by SSID: variables, or the formulas that feed its inputs."""
         self.persistent: dict[str, Symbolic] = {}
@@ -73,20 +58,22 @@ class ExpressionWriter(ABC):
     # --- what only the chart, or the statements, know ------------------------------------------------------
 
     @abstractmethod
-    def word(self, expression: Expression, scope: Scope) -> Symbolic | None:
+    def word(self, expression: Expression, scope: TextScope) -> Symbolic | None:
         """The value of an expression of the chart's own, as ``after(3, sec)``; ``None`` if it is none."""
 
     @abstractmethod
-    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: TextScope) -> list[Symbolic]:
         """Call a function of the chart."""
 
     @abstractmethod
-    def script(self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def script(
+        self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: TextScope
+    ) -> list[Symbolic]:
         """Call a MATLAB function of the script that a text stands in."""
 
     # --- values --------------------------------------------------------------------------------------------
 
-    def value(self, expression: Expression, scope: Scope) -> Symbolic:
+    def value(self, expression: Expression, scope: TextScope) -> Symbolic:
         """The value of an expression.  Raises ``NotLowered``."""
         match expression:
             case Number(value, kind):
@@ -99,8 +86,8 @@ class ExpressionWriter(ABC):
                     raise NotLowered("a function that gives nothing stands where a value must")
                 return found[0]
             case Indexed(whole, index):
-                value, at = self._both(whole, index, scope)
-                return self._element(value, as_number(single_of(at)), self.first_index(whole, scope))
+                every, at = self._both(whole, index, scope)
+                return self._element(every, as_number(single_of(at)), self.first_index(whole, scope))
             case UnaryOperation(sign, operand):
                 return unary(sign, self.value(operand, scope), scope.rules)
             case BinaryOperation("&&" | "||" as sign, left, right):
@@ -118,17 +105,17 @@ class ExpressionWriter(ABC):
                 raise NotLowered(f"the text {text!r} has no value here")
         raise NotLowered("it has no value")
 
-    def condition(self, expression: Expression, scope: Scope) -> Expr:
+    def condition(self, expression: Expression, scope: TextScope) -> Expr:
         """An expression as a condition."""
         return condition_of(self.value(expression, scope))
 
     @staticmethod
-    def _kind(whole: bool, kind: NumberKind, scope: Scope) -> str:
+    def _kind(whole: bool, kind: NumberKind, scope: TextScope) -> str:
         if whole and kind in (NumberKind.INTEGER, NumberKind.BITS) and scope.rules.c:
             return UNTYPED
         return "single" if kind is NumberKind.SINGLE else "double"
 
-    def _both(self, left: Expression, right: Expression, scope: Scope) -> tuple[Symbolic, Symbolic]:
+    def _both(self, left: Expression, right: Expression, scope: TextScope) -> tuple[Symbolic, Symbolic]:
         """Two values, of which the first is what it was before the second was computed."""
         one = self.value(left, scope)
         if self._does(right, scope):
@@ -140,7 +127,7 @@ class ExpressionWriter(ABC):
         made = [self.writer.kept("value", one) for _, one in leaves(value, "")]
         return filled(value, iter(made))
 
-    def _does(self, expression: Expression, scope: Scope) -> bool:
+    def _does(self, expression: Expression, scope: TextScope) -> bool:
         """Whether a function is called in an expression, which may write data."""
         names = (
             one.function.name
@@ -150,8 +137,8 @@ class ExpressionWriter(ABC):
         plain = (one.name for one in parts(expression) if isinstance(one, Name))
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
-    def _is_felt(self, expression: Expression, scope: Scope) -> bool:
-        """Whether it matters that an expression is computed: it may write data, begin a time anew, or be a fault."""
+    def _is_felt(self, expression: Expression, scope: TextScope) -> bool:
+        """Whether it matters that it is computed: it may write data, begin a time anew, or be a fault."""
         return self._does(expression, scope) or any(
             isinstance(one, Indexed)
             or (
@@ -162,11 +149,11 @@ class ExpressionWriter(ABC):
             for one in parts(expression)
         )
 
-    def _short(self, sign: str, left: Expression, right: Expression, scope: Scope) -> Expr:
+    def _short(self, sign: str, left: Expression, right: Expression, scope: TextScope) -> Expr:
         """``&&`` and ``||``, of which the right side is computed only where it decides."""
         return self.decided_by(sign, self.condition(left, scope), right, scope)
 
-    def decided_by(self, sign: str, one: Expr, right: Expression, scope: Scope) -> Expr:
+    def decided_by(self, sign: str, one: Expr, right: Expression, scope: TextScope) -> Expr:
         """The same with the left side as a formula."""
         if isinstance(one, Const) and bool(one.value) == (sign == "||"):
             return one
@@ -184,9 +171,9 @@ class ExpressionWriter(ABC):
         found = self.writer.locals.pop(key)
         return single_of(found).expr
 
-    def _named(self, name: str, expression: Expression, scope: Scope) -> Symbolic:
+    def _named(self, name: str, expression: Expression, scope: TextScope) -> Symbolic:
         if scope.function and (local := self.writer.locals.get(f"{scope.function}:{name}")) is not None:
-            if isinstance(local, SymbolicStructure) and local.kind == "two types":
+            if isinstance(local, SymbolicStructure) and local.kind == TWO_TYPES:
                 raise NotLowered(f"{name} has values of several types or sizes: give each a name")
             return local
         if name in scope.kept:
@@ -208,12 +195,12 @@ class ExpressionWriter(ABC):
         ]
         return filled(value, iter(made))
 
-    def is_datum(self, name: str, scope: Scope) -> bool:
+    def is_datum(self, name: str, scope: TextScope) -> bool:
         """Whether a name is that of a variable or a datum."""
         local = bool(scope.function) and f"{scope.function}:{name}" in self.writer.locals
         return local or name in scope.kept or datum_in(scope.node, name) is not None
 
-    def several(self, expression: Expression, scope: Scope) -> list[Symbolic]:
+    def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
         """All values of a call; of anything else its value."""
         own = isinstance(expression, Applied) and isinstance(expression.function, Name) and (
             self.is_datum(expression.function.name, scope)
@@ -244,7 +231,7 @@ class ExpressionWriter(ABC):
                 return self._called(name, (), scope)
         return [self.value(expression, scope)]
 
-    def _called(self, name: str, arguments: Iterable[Expression], scope: Scope) -> list[Symbolic]:
+    def _called(self, name: str, arguments: Iterable[Expression], scope: TextScope) -> list[Symbolic]:
         given = list(arguments)
         if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
             text = given.pop()
@@ -282,119 +269,12 @@ class ExpressionWriter(ABC):
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(f"{name} is no datum, event or function that is known here")
 
-    def is_unset(self, name: str, scope: Scope) -> Expr:
+    def is_unset(self, name: str, scope: TextScope) -> Expr:
         """Whether nothing was assigned to a persistent variable so far."""
         flag = self.persistent.get(f"{scope.keeper}.{name}?")
         if flag is None:
             return TRUE
         return single_of(self._now(flag)).expr
 
-    # --- elements ------------------------------------------------------------------------------------------
 
-    def first_index(self, whole: Expression, scope: Scope) -> int:
-        """The number of the first element of an array of C."""
-        datum = datum_in(scope.node, whole.name) if isinstance(whole, Name) else None
-        return int(datum.first_index or 0) if datum is not None else 0
-
-    def _element(self, value: Symbolic, at: Expr, first: int) -> SymbolicScalar:
-        every = flat(value)
-        self.check_index(at, first, len(every))
-        return _one_of(every, at, first)
-
-    def check_index(self, at: Expr, first: int, count: int) -> None:
-        """Note the steps in which an index has no element."""
-        inside = folded(folded(at >= first) & folded(at <= first + count - 1))
-        if isinstance(at, Const):
-            whole = at.value * at.sort.resolution  # type: ignore[union-attr]
-            if whole.denominator != 1 or not first <= whole < first + count:
-                raise NotLowered(f"the index {whole} of {count} values")
-            return
-        from rovercheck.checker.drawn.lower.symbols import least_and_greatest
-
-        low, high = least_and_greatest(at)
-        if low < first or high > first + count - 1:
-            self.writer.choose(
-                inside,
-                lambda: None,
-                lambda: self.writer.fault(f"an index, `{at}`, may name no element of {count}"),
-            )
-
-    def _indexed(self, value: Symbolic, indices: Sequence[Expression], scope: Scope) -> Symbolic:
-        rows, columns = size_of(value)
-        every = flat(value)
-        if len(indices) == 1:
-            by_column = [every[(at % rows) * columns + at // rows] for at in range(rows * columns)]
-            chosen_ = self.index(indices[0], rows * columns, scope)
-            made = [self._at(by_column, one) for one in chosen_]
-            return matrix(made, *((1, len(made)) if rows == 1 else (len(made), 1)), every[0].kind)
-        down, across = (
-            self.index(index, most, scope) for index, most in zip(indices, (rows, columns), strict=True)
-        )
-        made = []
-        for r in down:
-            for c in across:
-                row = [
-                    self._at([every[at * columns + other] for at in range(rows)], r)
-                    for other in range(columns)
-                ]
-                made.append(self._at(row, c))
-        return matrix(made, len(down), len(across), every[0].kind)
-
-    def _at(self, values: Sequence[SymbolicScalar], index: Expr) -> SymbolicScalar:
-        self.check_index(index, 1, len(values))
-        return _one_of(values, index, 1)
-
-    def index(self, index: Expression, most: int, scope: Scope) -> list[Expr]:
-        """The numbers, from 1, that an index means of so many elements."""
-        if isinstance(index, WholeRange):
-            return [number("double", at).expr for at in range(1, most + 1)]
-        given = flat(self.value(index, replace(scope, last=most)))
-        if given and all(one.kind == LOGICAL for one in given):
-            if any(one.constant is None for one in given):
-                raise NotLowered("elements that conditions choose: choose them one by one")
-            return [number("double", at + 1).expr for at, one in enumerate(given) if one.constant]
-        return [as_number(one) for one in given]
-
-    def _matrix(self, rows: Sequence[Sequence[Symbolic]], scope: Scope) -> Symbolic:
-        every = [[one for value in row for one in flat(value)] for row in rows]
-        width = max(map(len, every), default=0)
-        if any(len(row) != width for row in every):
-            raise NotLowered("the rows of a matrix are not as long as each other")
-        kinds = [one.kind for row in every for one in row]
-        kind = next(
-            (k for k in kinds if k not in ("double", LOGICAL, UNTYPED)), kinds[0] if kinds else "double"
-        )
-        made = SymbolicArray(kind, len(every), width, tuple(one for row in every for one in row))
-        if not kinds:
-            return made
-        found = each_converted(made, kind, scope.rules, self.table.kinds)
-        return matrix(flat(found), len(every), width)
-
-    def _range(self, one: ColonRange, scope: Scope) -> Symbolic:
-        ends = [self.value(end, scope) for end in (one.start, one.stop)]
-        step = number("double", 1) if one.step is None else single_of(self.value(one.step, scope))
-        start, stop = (single_of(end) for end in ends)
-        if start.constant is None or stop.constant is None or not step.constant:
-            raise NotLowered("a range whose ends are no constants")
-        count = (stop.constant - start.constant) / step.constant
-        if count >= MOST_ELEMENTS:
-            raise NotLowered(f"a range of more than {MOST_ELEMENTS:,} numbers")
-        kind = next((k.kind for k in (start, step, stop) if k.kind not in REALS), "double")
-        values = [
-            number(kind, start.constant + step.constant * at)
-            for at in range(int(count) + 1 if count >= 0 else 0)
-        ]
-        return matrix(values, 1, len(values), kind) if len(values) != 1 else values[0]
-
-
-def _one_of(values: Sequence[SymbolicScalar], at: Expr, first: int) -> SymbolicScalar:
-    """The element that an index names; the last one where it names none."""
-    if isinstance(at, Const):
-        return values[int(at.value * at.sort.resolution) - first]  # type: ignore[union-attr]
-    made = values[-1].expr
-    for number_, one in reversed(list(enumerate(values[:-1]))):
-        made = chosen(folded(at == first + number_), one.expr, made)
-    return SymbolicScalar(values[0].kind, made)
-
-
-__all__ = ["ExpressionWriter", "IntegerRules"]
+__all__ = ["ExpressionWriter"]

@@ -1,23 +1,24 @@
-"""What names mean in the texts of a chart: data, functions, events and states, from the inside to the outside."""
+"""What names mean in the texts of a chart: data, functions and states, from the inside to the outside."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
-from rovercheck.checker.drawn.lower.arithmetic import IntegerRules
+from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
 from rovercheck.checker.drawn.records import DrawnData
-from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.expr import Expr, Var
 
 
 @dataclass
-class Scope:
+class TextScope:
     """Where a text stands: its state, and the function if it is in one.
 
-    ``left`` is raised once what the text still does is dropped, as its state was left, ``returned``,
-    ``broken`` and ``continued`` once a function or a loop ends.  ``last`` is the meaning of ``end``.
+    ``left`` is raised once what the text still does is dropped, as its state was left: it goes on while
+    ``alive`` gives a condition that holds.  ``returned``, ``broken`` and ``continued`` are raised once a
+    function, a loop or a turn of it ends.  ``last`` is the meaning of ``end``.
     """
 
     node: StateNode
@@ -29,7 +30,7 @@ class Scope:
     keeper: str = ""
     calls: tuple[str, ...] = ()
     left: Var | None = None
-    alive: object = None
+    alive: Callable[[], Expr] | None = None
     returned: Var | None = None
     broken: Var | None = None
     continued: Var | None = None
@@ -92,4 +93,4 @@ def _names_end(node: StateNode, path: Sequence[str]) -> bool:
     return names[: len(path)] == list(path)[::-1]
 
 
-__all__ = ["Scope", "datum_in", "function_in", "state_in", "words"]
+__all__ = ["TextScope", "datum_in", "function_in", "state_in", "words"]

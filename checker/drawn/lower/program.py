@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import reduce
 
 from rovercheck.checker.drawn.lower.symbols import (
+    TWO_TYPES,
     Symbolic,
     SymbolicScalar,
     SymbolicStructure,
@@ -34,8 +35,8 @@ class ProgramWriter:
     An *end* is a flag of which everything that follows is skipped once it is raised: a state that was left, a
     loop, a function.  What holds it is ``until``.  ``known`` are the values of data that are the same in
     every run at this point; ``locals`` are those of the variables of functions, each version of which is a
-    temporary of its own, so that it has no more values than were assigned to it.  More assignments than ``most``
-    are refused; those of a part that is used in several places count in each.
+    temporary of its own, so that it has no more values than were assigned to it.  More assignments than
+    ``most`` are refused; those of a part that is used in several places count in each.
     """
 
     def __init__(self, name: str, most: int = MOST_STATEMENTS) -> None:
@@ -64,8 +65,8 @@ class ProgramWriter:
         self.size += by
         if self.size > self._most:
             raise TooManyStatements(
-                f"a step of {self.name} does more than {self._most:,} things: let fewer events be sent while others "
-                "are answered, and loops make fewer turns"
+                f"a step of {self.name} does more than {self._most:,} things: let fewer events be sent while "
+                "others are answered, and loops make fewer turns"
             )
 
     def read(self, var: Var) -> Expr:
@@ -161,13 +162,11 @@ class ProgramWriter:
         size, self.size = self.size - size, size
         return made, size
 
-    def include(
-        self, statements: list[Statement], size: int, written: frozenset[str] | None = None
-    ) -> None:
-        """Write a part that was written alone; what it may write is no longer known."""
+    def include(self, statements: list[Statement], size: int) -> None:
+        """Write a part that was written alone; nothing is known after it."""
         self._rows += statements
         self._grow(size)
-        self.known = {} if written is None else {n: c for n, c in self.known.items() if n not in written}
+        self.known = {}
 
     # --- ends ----------------------------------------------------------------------------------------------
 
@@ -238,16 +237,17 @@ class ProgramWriter:
         first: list[Statement],
         second: list[Statement],
     ) -> dict[str, Symbolic]:
-        """The variables of functions after either of two parts, at the end of which they are brought together."""
+        """The variables of functions after either of two parts, whose ends bring them together."""
         found = {**other, **one}
-        for part, absent in ((first, other.keys() - one.keys()), (second, one.keys() - other.keys())):
+        only = [name for name in other if name not in one], [name for name in one if name not in other]
+        for part, absent in zip((first, second), only, strict=True):
             for name in absent:  # it means nothing on this way, and has some value
                 for _, leaf in leaves(found[name], name):
                     if isinstance(leaf.expr, Var):
                         part.append(Assign(leaf.expr, Const(leaf.expr.init, leaf.expr.sort)))
-        for name in one.keys() & other.keys():
-            if one[name] is not other[name]:
-                found[name] = self._joined(name, one[name], other[name], first, second)
+        for name, value in one.items():
+            if name in other and value is not other[name]:
+                found[name] = self._joined(name, value, other[name], first, second)
         return found
 
     def _joined(
@@ -255,7 +255,7 @@ class ProgramWriter:
     ) -> Symbolic:
         lefts, rights = list(leaves(one, name)), list(leaves(other, name))
         if [(leaf, value.kind) for leaf, value in lefts] != [(leaf, value.kind) for leaf, value in rights]:
-            return SymbolicStructure("two types", {})  # whoever reads it is told so
+            return SymbolicStructure(TWO_TYPES, {})  # whoever reads it is told so
         made = []
         for (leaf, left), (_, right) in zip(lefts, rights, strict=True):
             if left.expr is right.expr or _same_constant(left.expr, right.expr):

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel, RangeNotKnown, lowered_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import lines_of
+from rovercheck.checker.drawn.lower.lowered import RangeNotKnown
 from rovercheck.checker.drawn.lower.uses import uses_of
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.spec_model.lang.domain import Domain, chosen, fixed

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -19,7 +19,7 @@ class LoweredRun:
         self._inputs = {name: var for name, var in lowered.inputs.items() if isinstance(var, Var)}
 
     def step(self, given: Mapping[str, float]) -> dict[str, float]:
-        """One step.  Raises ``ModelError`` for an input outside its domain, and for a step without a meaning."""
+        """One step.  Raises ``ModelError`` for an input outside its domain, or a step without a meaning."""
         read = self._run.system.inputs
         raw = {var.name: _raw(var, given[name]) for name, var in self._inputs.items()}
         self._run.step({name: value for name, value in raw.items() if name in read})

@@ -1,7 +1,7 @@
-"""Statements of charts and MATLAB functions as statements of a step; loops are unrolled, functions inlined."""
+"""Statements of charts and MATLAB functions as statements of a step, with loops unrolled."""
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from rovercheck.checker.drawn.grammar.actions import (
@@ -22,16 +22,11 @@ from rovercheck.checker.drawn.grammar.actions import (
 )
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperator, Expression, Indexed, Member, Name
-from rovercheck.checker.drawn.lower.arithmetic import (
-    IntegerRules,
-    as_number,
-    binary,
-    converted,
-    each_converted,
-)
+from rovercheck.checker.drawn.lower.arithmetic import binary
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, converted, each_converted
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
-from rovercheck.checker.drawn.lower.names import Scope, datum_in
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in
 from rovercheck.checker.drawn.lower.symbols import (
     UNTYPED,
     NotLowered,
@@ -51,7 +46,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.records import DrawnData
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, any_of
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_of
 
 MOST_TURNS = 1_000
 """Turns of a loop that are written one after the other, where each is sure to be made."""
@@ -61,7 +56,7 @@ class StatementWriter(ExpressionWriter):
     """Writes statements, and what they call."""
 
     @abstractmethod
-    def sent(self, expression: Expression, scope: Scope) -> bool:
+    def sent(self, expression: Expression, scope: TextScope) -> bool:
         """Send the event that a statement is; whether it is one."""
 
     @abstractmethod
@@ -70,7 +65,9 @@ class StatementWriter(ExpressionWriter):
 
     # --- functions -----------------------------------------------------------------------------------------
 
-    def script(self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: Scope) -> list[Symbolic]:
+    def script(
+        self, function: ScriptFunction, arguments: Sequence[Symbolic], scope: TextScope
+    ) -> list[Symbolic]:
         """Call a MATLAB function."""
         signature = function.signature
         if len(arguments) > len(signature.inputs):
@@ -102,14 +99,14 @@ class StatementWriter(ExpressionWriter):
 
     # --- statements ----------------------------------------------------------------------------------------
 
-    def run(self, statements: Iterable[ActionStatement], scope: Scope) -> None:
+    def run(self, statements: Iterable[ActionStatement], scope: TextScope) -> None:
         """Write statements.  Raises ``NotLowered``."""
         for one in statements:
             if self.writer.dead:
                 return
             self._statement(one, scope)
 
-    def _statement(self, one: ActionStatement, scope: Scope) -> None:
+    def _statement(self, one: ActionStatement, scope: TextScope) -> None:
         match one:
             case Assignment(targets, value, sign):
                 self._assign(targets, value, sign, scope)
@@ -130,11 +127,11 @@ class StatementWriter(ExpressionWriter):
                 with self.writer.until("loop_left") as broken:
                     self._turn(one, replace(scope, broken=broken), MOST_TURNS, self.table.turns)
             case BreakStatement():
-                self._end(scope.broken, "break", scope)
+                self._end(scope.broken, "break")
             case ContinueStatement():
-                self._end(scope.continued, "continue", scope)
+                self._end(scope.continued, "continue")
             case ReturnStatement():
-                self._end(scope.returned, "return", scope)
+                self._end(scope.returned, "return")
             case NameDeclaration("persistent", names):
                 scope.kept.update(names)
                 for name in names:
@@ -142,12 +139,14 @@ class StatementWriter(ExpressionWriter):
             case NameDeclaration(keyword):
                 raise NotLowered(f"`{keyword}` variables: pass the value")
 
-    def _end(self, flag: object, word: str, scope: Scope) -> None:
+    def _end(self, flag: Var | None, word: str) -> None:
         if flag is None:
             raise NotLowered(f"`{word}` stands in nothing that it could end")
-        self.writer.end(flag)  # type: ignore[arg-type]
+        self.writer.end(flag)
 
-    def _if(self, branches: Sequence[IfBranch], otherwise: Sequence[ActionStatement], scope: Scope) -> None:
+    def _if(
+        self, branches: Sequence[IfBranch], otherwise: Sequence[ActionStatement], scope: TextScope
+    ) -> None:
         if not branches:
             self.run(otherwise, scope)
             return
@@ -159,7 +158,11 @@ class StatementWriter(ExpressionWriter):
         )
 
     def _switch(
-        self, given: Symbolic, cases: Sequence[SwitchCase], otherwise: Sequence[ActionStatement], scope: Scope
+        self,
+        given: Symbolic,
+        cases: Sequence[SwitchCase],
+        otherwise: Sequence[ActionStatement],
+        scope: TextScope,
     ) -> None:
         if not cases:
             self.run(otherwise, scope)
@@ -173,7 +176,7 @@ class StatementWriter(ExpressionWriter):
             lambda: self._switch(given, others, otherwise, scope),
         )
 
-    def _for(self, one: ForLoop, scope: Scope) -> None:
+    def _for(self, one: ForLoop, scope: TextScope) -> None:
         every = self.value(one.values, scope)
         rows, columns = size_of(every)
         found = flat(every)
@@ -187,12 +190,12 @@ class StatementWriter(ExpressionWriter):
                 with self.writer.until("turn_left") as continued:
                     self.run(one.body, replace(scope, broken=broken, continued=continued))
 
-    def _turn(self, one: WhileLoop, scope: Scope, most: int, few: int) -> None:
+    def _turn(self, one: WhileLoop, scope: TextScope, most: int, few: int) -> None:
         """A turn of a loop, and those after it."""
         condition = self.condition(one.condition, scope)
         if isinstance(condition, Const):
             few += 1
-        if isinstance(condition, Const) and not condition.value or self.writer.dead:
+        if (isinstance(condition, Const) and not condition.value) or self.writer.dead:
             return
         if not most or not few:
             turns = MOST_TURNS if not most else self.table.turns
@@ -216,7 +219,7 @@ class StatementWriter(ExpressionWriter):
         targets: Sequence[Expression | None],
         value: Expression,
         sign: BinaryOperator | None,
-        scope: Scope,
+        scope: TextScope,
     ) -> None:
         if len(targets) == 1 and targets[0] is not None:
             new = self.value(value, scope)
@@ -231,7 +234,7 @@ class StatementWriter(ExpressionWriter):
             if target is not None:
                 self._write(target, one, scope)
 
-    def _write(self, target: Expression, value: Symbolic, scope: Scope) -> None:
+    def _write(self, target: Expression, value: Symbolic, scope: TextScope) -> None:
         match target:
             case Name(name):
                 self._set(name, value, scope)
@@ -249,14 +252,14 @@ class StatementWriter(ExpressionWriter):
                 first = self.first_index(of, scope)
                 self.check_index(at, first, len(flat(whole)))
                 new = single_of(value)
-                made = [
+                every = [
                     self._if_at(one, folded(at == first + n), new, scope) for n, one in enumerate(flat(whole))
                 ]
-                self._write(of, matrix(made, *size_of(whole)), scope)
+                self._write(of, matrix(every, *size_of(whole)), scope)
             case _:
                 raise NotLowered("what is assigned to is no datum")
 
-    def _like(self, old: Symbolic, value: Symbolic, scope: Scope) -> Symbolic:
+    def _like(self, old: Symbolic, value: Symbolic, scope: TextScope) -> Symbolic:
         """A value in the type and the size of what it takes the place of."""
         if isinstance(old, SymbolicStructure) or isinstance(value, SymbolicStructure):
             if old.kind != value.kind:
@@ -270,12 +273,14 @@ class StatementWriter(ExpressionWriter):
             raise NotLowered(f"sizes of {shown}: a datum keeps its size")
         return made
 
-    def _if_at(self, old: SymbolicScalar, here: Expr, new: SymbolicScalar, scope: Scope) -> SymbolicScalar:
+    def _if_at(
+        self, old: SymbolicScalar, here: Expr, new: SymbolicScalar, scope: TextScope
+    ) -> SymbolicScalar:
         made = converted(new, old.kind, scope.rules, self.table.kinds)
         return SymbolicScalar(old.kind, chosen(here, made.expr, old.expr))
 
     def _with(
-        self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: Scope
+        self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: TextScope
     ) -> Symbolic:
         """A matrix with other values in some places."""
         rows, columns = size_of(whole)
@@ -285,12 +290,12 @@ class StatementWriter(ExpressionWriter):
             own = [
                 number("double", (at % columns) * rows + at // columns + 1).expr for at in range(len(found))
             ]
-            pairs = [(place, None) for place in places]
+            pairs: list[tuple[Expr, Expr | None]] = [(place, None) for place in places]
         else:
             down, across = (
                 self.index(i, most, scope) for i, most in zip(indices, (rows, columns), strict=True)
             )
-            pairs = [(r, c) for r in down for c in across]  # type: ignore[misc]
+            pairs = [(r, c) for r in down for c in across]
             own = []
         if len(given) not in (1, len(pairs)):
             raise NotLowered(f"{len(given)} values are written to {len(pairs)} places")
@@ -307,7 +312,7 @@ class StatementWriter(ExpressionWriter):
                 found[at] = self._if_at(old, here, new, scope)
         return matrix(found, rows, columns)
 
-    def _set(self, name: str, value: Symbolic, scope: Scope) -> None:
+    def _set(self, name: str, value: Symbolic, scope: TextScope) -> None:
         if name in scope.kept:
             self._keep(name, value, scope)
         elif scope.function and (
@@ -319,35 +324,34 @@ class StatementWriter(ExpressionWriter):
         else:
             raise NotLowered(f"there is no datum {name} to write to")
 
-    def store(self, one: DrawnData, value: Symbolic, scope: Scope) -> None:
+    def store(self, one: DrawnData, value: Symbolic, scope: TextScope) -> None:
         """Write a datum: first all that is written is computed, as it may read the datum."""
         self._all(self.datum(one, value), value, scope)
 
-    def _all(self, cells: Symbolic, value: Symbolic, scope: Scope) -> None:
+    def _all(self, cells: Symbolic, value: Symbolic, scope: TextScope) -> None:
         made = self._like(cells, value, scope)
         pairs = list(zip((c for _, c in leaves(cells, "")), (v for _, v in leaves(made, "")), strict=True))
         changed = [(cell, new) for cell, new in pairs if cell.expr is not new.expr]
         if len(changed) > 1:
             changed = [(cell, self.writer.kept("new", new)) for cell, new in changed]
         for cell, new in changed:
-            if not isinstance(new.expr, Const) or True:
-                self.table.write(self.writer, cell, new.expr)
+            self.table.write(self.writer, cell, new.expr)
 
-    def _local(self, name: str, value: Symbolic, scope: Scope) -> None:
+    def _local(self, name: str, value: Symbolic, scope: TextScope) -> None:
         """A variable of a function: each assignment makes a new version of it."""
         key = f"{scope.function}:{name}"
         old = self.writer.locals.get(key)
         if (
             old is not None
+            and not isinstance(old, SymbolicStructure)
             and (old.kind, size_of(old)) != (value.kind, size_of(value))
-            and old.kind != "two types"
+            and UNTYPED not in (old.kind, value.kind)
         ):
-            if not isinstance(old, SymbolicStructure) and UNTYPED not in (old.kind, value.kind):
-                raise NotLowered(f"{name} is of {old.kind} first, and of {value.kind} then: give each a name")
+            raise NotLowered(f"{name} is of {old.kind} first, and of {value.kind} then: give each a name")
         made = [self.writer.kept(name, one) for _, one in leaves(value, "")]
         self.writer.locals[key] = filled(value, iter(made))
 
-    def _recall(self, name: str, scope: Scope) -> None:
+    def _recall(self, name: str, scope: TextScope) -> None:
         """The memory of a persistent variable, if its type is known already."""
         key = f"{scope.keeper}.{name}"
         known = self.table.kind_of(key)
@@ -357,7 +361,7 @@ class StatementWriter(ExpressionWriter):
             unset = self.table.declared(f"{key}?", truth(TRUE), hidden=True)
             self.persistent[f"{key}?"] = unset
 
-    def _keep(self, name: str, value: Symbolic, scope: Scope) -> None:
+    def _keep(self, name: str, value: Symbolic, scope: TextScope) -> None:
         key = f"{scope.keeper}.{name}"
         kind = "double" if value.kind == UNTYPED else value.kind
         if is_structure(kind):
@@ -367,7 +371,5 @@ class StatementWriter(ExpressionWriter):
         self._all(self.persistent[key], value, scope)
         self.table.write(self.writer, single_of(self.persistent[f"{key}?"]), FALSE)
 
-
-Write = Callable[[], None]
 
 __all__ = ["StatementWriter"]

@@ -20,10 +20,12 @@ INTEGERS: Mapping[str, tuple[int, int]] = {
 REALS = ("double", "single")
 LOGICAL, UNTYPED = "logical", "untyped"
 """Truth values; and whole numbers in a text of C, which take the type of what they are computed with."""
+TWO_TYPES = "two types"
+"""What a variable is of that has values of two types or sizes, depending on what was executed."""
 
 
 class NotLowered(Exception):
-    """What is drawn has a meaning that no finite formula has, or none here: what, and what to draw instead."""
+    """What is drawn has a meaning that no finite formula has, or none here; it says what to draw instead."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +38,7 @@ class SymbolicScalar:
     @property
     def constant(self) -> Fraction | None:
         """Its value, if that is the same in every step."""
-        if not isinstance(self.expr, Const):
-            return None
-        sort = self.expr.sort
-        return self.expr.value * sort.resolution if isinstance(sort, Num) else Fraction(self.expr.value)
+        return constant_of(self.expr)
 
 
 @dataclass(frozen=True)
@@ -61,6 +60,13 @@ class SymbolicStructure:
 
 
 Symbolic: TypeAlias = Union[SymbolicScalar, SymbolicArray, SymbolicStructure]
+
+
+def constant_of(expr: Expr) -> Fraction | None:
+    """The value of a formula that is a constant; a truth value is 1 or 0."""
+    if not isinstance(expr, Const):
+        return None
+    return expr.value * expr.sort.resolution if isinstance(expr.sort, Num) else Fraction(expr.value)
 
 
 def number(kind: str, value: Fraction | int) -> SymbolicScalar:
@@ -176,7 +182,7 @@ def least_and_greatest(expr: Expr) -> tuple[Fraction, Fraction]:
 
 
 __all__ = [
-    "INTEGERS", "LOGICAL", "REALS", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray", "SymbolicScalar",
-    "SymbolicStructure", "chosen", "filled", "flat", "folded", "least_and_greatest", "leaves", "matrix",
-    "number", "single_of", "size_of", "truth",
+    "INTEGERS", "LOGICAL", "REALS", "TWO_TYPES", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray",
+    "SymbolicScalar", "SymbolicStructure", "chosen", "constant_of", "filled", "flat", "folded",
+    "least_and_greatest", "leaves", "matrix", "number", "single_of", "size_of", "truth",
 ]  # fmt: skip

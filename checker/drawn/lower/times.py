@@ -1,10 +1,10 @@
 """Times of a chart as counters of its steps, each of which stops where more makes no difference."""
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from fractions import Fraction
 
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperation, Expression, Name
-from rovercheck.checker.drawn.lower.arithmetic import as_number
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import NotLowered, chosen, folded, least_and_greatest
@@ -32,10 +32,8 @@ class ChartTimes:
     def __init__(self, name: str, step: str, table: DataTable, writer: ProgramWriter) -> None:
         self._name, self._table, self._writer = name, table, writer
         self._step: Fraction | None = None
-        try:
+        with suppress(ValueError, ZeroDivisionError):  # as ``auto``
             self._step = Fraction(step.strip())
-        except (ValueError, ZeroDivisionError):  # as ``auto``
-            pass
         self._vars: dict[tuple[str, str], Var] = {}
         self._numbers: dict[int, int] = {}
 
@@ -86,7 +84,7 @@ class ChartTimes:
     def saw(self, event: str, node: StateNode, active: Expr) -> None:
         """An event was sent: states that are active have seen it once more."""
         for what, var in self.of(node):
-            if what.startswith("every") and what.endswith(f" {event}") or what == f"seen {event}":
+            if (what.startswith("every") and what.endswith(f" {event}")) or what == f"seen {event}":
                 self._writer.assign(var, chosen(active, self._more(what, var), var))
 
     def end(self, node: StateNode, active: Expr, conditions: Mapping[str, Callable[[], Expr]]) -> None:
@@ -155,14 +153,8 @@ def compared_limit(
     expression: Expression, value: Callable[[Expression], Expr], seconds: Callable[[str], Fraction]
 ) -> tuple[Applied, int] | None:
     """A count that is compared with a constant, and up to how many steps it matters then."""
-    if not isinstance(expression, BinaryOperation) or expression.operator not in (
-        "<",
-        "<=",
-        ">",
-        ">=",
-        "==",
-        "!=",
-    ):
+    signs = ("<", "<=", ">", ">=", "==", "!=")
+    if not isinstance(expression, BinaryOperation) or expression.operator not in signs:
         return None
     for one, other in ((expression.left, expression.right), (expression.right, expression.left)):
         match one:
@@ -189,4 +181,4 @@ def _unit(name: str, arguments: tuple[Expression, ...]) -> str:
     raise NotLowered("times are counted in sec, msec, usec, tick or in an event")
 
 
-__all__ = ["COUNTED", "LIMITS", "UNITS", "ChartTimes", "as_number", "compared_limit"]
+__all__ = ["COUNTED", "LIMITS", "UNITS", "ChartTimes", "compared_limit"]

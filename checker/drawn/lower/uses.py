@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.diagram import LoweredModel
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.spec_model.lang.action import expressions
 from rovercheck.spec_model.lang.chart import Block, parts
 from rovercheck.spec_model.lang.domain import Num
@@ -19,7 +19,10 @@ def uses_of(lowered: LoweredModel) -> dict[str, tuple[set[Fraction], bool]]:
     for formula in _formulas(lowered):
         for name, constant in _used(formula):
             constants, otherwise = found.get(name, (set(), False))
-            found[name] = constants | ({constant} - {None}), otherwise or constant is None  # type: ignore[operator]
+            found[name] = (
+                constants | ({constant} if constant is not None else set()),
+                otherwise or constant is None,
+            )
     return found
 
 

@@ -1,4 +1,4 @@
-"""A chart as a person sees it: its states, its transitions with their labels, and which of them are active."""
+"""A chart as a person sees it: its states, which of them are active, and its labelled transitions."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -96,9 +96,9 @@ class ChartView:
         )  # fmt: skip
 
     def _state(self, node: StateNode) -> State:
-        drawn = node
         return State(
-            self.name(node), LabelText(self._label(drawn)), states=[self._state(child) for child in node.children],
+            self.name(node), LabelText(self._label(node)),
+            states=[self._state(child) for child in node.children],
             transitions=[self._transition(one) for one in node.outer if one.target is not None],
             junctions=self._junctions(node), parallel=node.parallel,
             default=[self._transition(one) for one in node.defaults if one.target is not None],

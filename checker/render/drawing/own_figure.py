@@ -77,7 +77,8 @@ def _placed(
     chart: Chart, figure: ChartFigure, scale: float
 ) -> tuple[dict[Path, Frame], dict[Path, tuple[float, float]], dict[Path, Frame]]:
     """The frames in pixels, how far each sheet is moved, and the frames around the sheets of subcharts."""
-    offsets, panels, bottom = {(): (0.0, 0.0)}, dict[Path, Frame](), 0.0
+    offsets: dict[Path, tuple[float, float]] = {(): (0.0, 0.0)}
+    panels, bottom = dict[Path, Frame](), 0.0
     for sheet in ((), *figure.sheets):
         own = [f for path, f in figure.frames.items() if _sheet(figure, path) == sheet]
         if not own:

@@ -14,7 +14,10 @@ PROPERTIES = [
         "OVEN-1", "The heating is on in the state Heat only.",
         that=implies(heating, oven.active("Oven/Cooking/Heat")), covers=["R-1"], on=oven.system,
     ),
-    always("OVEN-2", "It never heats with its door open.", that=~(heating & door), covers=["R-1"], on=oven.system),
+    always(
+        "OVEN-2", "It never heats with its door open.",
+        that=~(heating & door), covers=["R-1"], on=oven.system,
+    ),
     always(
         "OVEN-3", "It heats only while time is left.",
         that=implies(heating, left > 0), covers=["R-2"], on=oven.system,

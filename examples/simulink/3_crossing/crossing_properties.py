@@ -12,5 +12,8 @@ PROPERTIES = [
         that=implies(walk, cars == "RED"), covers=["R-1"], on=crossing.system,
     ),
     reachable("CROSS-2", "Walkers get green.", that=walk, covers=["R-2"], on=crossing.system),
-    reachable("CROSS-3", "The count stops at its end.", that=count == 255, covers=["R-2"], on=crossing.system),
+    reachable(
+        "CROSS-3", "The count stops at its end.",
+        that=count == 255, covers=["R-2"], on=crossing.system,
+    ),
 ]  # fmt: skip

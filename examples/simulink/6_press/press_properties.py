@@ -1,6 +1,6 @@
 """What a press must keep, in the names of press.slx."""
 
-from rovercheck import always, implies, reachable, simulink_model
+from rovercheck import always, reachable, simulink_model
 
 press = simulink_model("press.slx")
 

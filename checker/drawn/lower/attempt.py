@@ -1,0 +1,166 @@
+"""A whole model as a system, with what is known of its data so far."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+
+from rovercheck.checker.drawn.lower.context import LoweringContext
+from rovercheck.checker.drawn.lower.data import DataTable
+from rovercheck.checker.drawn.lower.kinds import sizes
+from rovercheck.checker.drawn.lower.lowered import LoweredModel, RangeNotKnown
+from rovercheck.checker.drawn.lower.program import domain_of, in_steps
+from rovercheck.checker.drawn.lower.symbols import Symbolic, SymbolicScalar, filled, leaves
+from rovercheck.checker.drawn.lower.system import SystemWriter
+from rovercheck.checker.drawn.lower.view import plain_name
+from rovercheck.checker.drawn.parsed import ParsedChart
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnModel
+from rovercheck.checker.drawn.wiring import number_of
+from rovercheck.spec_model.lang.action import Assign, each_action, expressions
+from rovercheck.spec_model.lang.chart import Block, Component
+from rovercheck.spec_model.lang.domain import boolean
+from rovercheck.spec_model.lang.evaluate import run
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import Note, Program, System, in_order
+from rovercheck.spec_model.lang.walk import variables
+
+
+class LoweringAttempt:
+    """One attempt to lower a model."""
+
+    def __init__(
+        self, model: DrawnModel, file: str, table: DataTable, charts: Mapping[str, ParsedChart], step: str,
+        most: int,
+    ) -> None:  # fmt: skip
+        self.model, self.table, self.step, self._file = model, table, step, file
+        self.context = LoweringContext(model, file, table, charts, step, most)
+        self.inputs: dict[str, Expr] = {}
+        self._missing: list[str] = []
+
+    def lowered(self) -> LoweredModel:
+        """The system.  Raises ``NotLowered``, and ``RangeNotKnown`` for inputs without a domain."""
+        top = SystemWriter(self.model.system, self.context, "")
+        root = {number_of(one): one for one in self.model.system.blocks if one.kind == "Inport"}
+        given = [self._input(root[n], top) for n in sorted(root)]
+        if self._missing:
+            raise RangeNotKnown("no domain is given for {}", self._missing)
+        components, ends = top.lowered(given)
+        outputs = self._outputs(top, ends)
+        written = self._written(outputs)
+        if written:
+            last = [Assign(var, value) for var, value in written]
+            components = (*components, Block("Outports", last, text="The outputs of the model."))
+        components = (*components, *top.delays())
+        self._initialize()
+        shown = {
+            name: next((v for v, _ in written if v.name == name), expr) for name, expr in outputs.items()
+        }
+        notes = tuple(self.table.notes.values())
+        step_ms, said = _milliseconds(self.step)
+
+        def system_of(*parts: Component) -> System:
+            return in_order(
+                plain_name(self.model.name), *parts,
+                text=f"The model {self.model.name}, read from {self._file}.",
+                notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
+            )  # fmt: skip
+
+        system = system_of(*components)
+        if unwritten := self._unwritten(system, shown):
+            system = system_of(*components, unwritten)
+        taken = frozenset(self.table.declared_names)
+        data, views = self.context.data, self.context.views
+        return LoweredModel(self.model, system, self.inputs, shown, data, views, notes, taken, self._computes)
+
+    @property
+    def _computes(self) -> bool:
+        return bool(self.table.ranges) or bool(self.table.given.keys() - self.inputs.keys())
+
+    def _input(self, port: DrawnBlock, top: SystemWriter) -> Symbolic:
+        kind = self.table.kinds.kind(port.parameters.get("OutDataTypeStr", "Inherit"))
+        rows, columns = sizes(port.parameters.get("PortDimensions", "-1"))
+        if not kind:
+            seen = top.kind_wanted(port)
+            kind, rows, columns = seen if seen else ("double", rows, columns)
+        first = self.table.kinds.first_value(kind, rows, columns)
+        made = []
+        for name, one in leaves(first, port.name):
+            domain = self.table.given.get(name) or self.table.kinds.domain(one.kind)
+            if domain is None:
+                self._missing.append(name)
+                domain = boolean
+            raw = 0 if 0 in domain else domain.low
+            var = Var(name, domain, raw, f"input of {self.model.name}, {one.kind}")
+            self.inputs[name] = var
+            made.append(SymbolicScalar(one.kind, var))
+        return filled(first, iter(made))
+
+    def _outputs(self, top: SystemWriter, ends: Sequence[Symbolic]) -> dict[str, Expr]:
+        return {
+            name: one.expr
+            for port, value in zip(top.ends, ends, strict=True)
+            for name, one in leaves(value, port.block.name)
+        }
+
+    def _written(self, outputs: Mapping[str, Expr]) -> list[tuple[Var, Expr]]:
+        """The outputs that are no variables of their names already, with the variables that they get."""
+        found = []
+        for name, expr in outputs.items():
+            if isinstance(expr, Var) and expr.name == name and name not in self.context.memories:
+                continue
+            domain = domain_of(expr)
+            taken = name in self.inputs or name in self.context.data or name in self.context.memories
+            var = Var(f"{name} out" if taken else name, domain, domain.low, f"output of {self.model.name}")
+            found.append((var, in_steps(expr, var)))
+        return found
+
+    def _unwritten(self, system: System, shown: Mapping[str, Expr]) -> Block | None:
+        """The data that nothing writes: they keep their first values, and are no inputs."""
+        given = {one.name for one in self.inputs.values() if isinstance(one, Var)}
+        places = {var.name for chart in system.charts for var in (chart.entered, *chart.locations)}
+        known = [one for one in (*self.context.data.values(), *shown.values()) if isinstance(one, Var)]
+        every = {one.name: one for one in (*system.inputs.values(), *known)}
+        others = given | system.written.keys() | places | self.context.temporaries
+        keep = [Assign(var, var) for name, var in every.items() if name not in others]
+        return Block("Unwritten", keep, text="Data that nothing writes.") if keep else None
+
+    def _initialize(self) -> None:
+        """Charts that are entered at initialization: their data begin as that leaves them."""
+        every: dict[str, int] = {}
+        for writer in self.context.starts:
+            statements = writer.written()
+            at = {one.name: self._at_rest(one) for one in _variables(statements)} | every
+            before = dict(at)
+            run(statements, at)
+            every |= {n: raw for n, raw in at.items() if n not in writer.temporaries and raw != before[n]}
+        if every != self.table.starting:
+            self.table.starting = every
+            self.table.changed.add("initialization")
+
+    def _at_rest(self, var: Var) -> int:
+        """The value of a variable before initialization."""
+        return self.table.at_rest.get(var.name, 0 if var.name in self.table.starting else var.init)
+
+
+def _variables(statements: Program) -> Iterator[Var]:
+    """Those that some statements write or read."""
+    for one in each_action(statements):
+        if isinstance(one, Assign):
+            yield one.var
+    for formula in expressions(statements):
+        yield from variables(formula).values()
+
+
+def _milliseconds(step: str) -> tuple[int, list[Note]]:
+    """The length of a step in whole milliseconds, and a note where it is none."""
+    try:
+        exact = Fraction(step.strip()) * 1000
+    except (ValueError, ZeroDivisionError):
+        return 1, [
+            Note("The length of a step is not in the file; times are told in steps of 1 ms.", brief="")
+        ]
+    if exact.denominator == 1 and exact >= 1:
+        return int(exact), []
+    said = f"A step lasts {float(exact):g} ms; times are told as if it were whole milliseconds."
+    return max(1, round(exact)), [Note(said, brief="")]
+
+
+__all__ = ["LoweringAttempt"]

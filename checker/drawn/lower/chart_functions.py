@@ -1,0 +1,51 @@
+"""Functions of a chart, and a MATLAB function that is a block."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from rovercheck.checker.drawn.lower.chart_paths import PathWriter
+from rovercheck.checker.drawn.lower.names import TextScope
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
+from rovercheck.checker.drawn.parsed import FunctionNode
+
+
+class FunctionWriter(PathWriter):
+    """The functions of one chart."""
+
+    def call(self, function: FunctionNode, arguments: Sequence[Symbolic], scope: TextScope) -> list[Symbolic]:
+        """A function of the chart: a MATLAB function, or a flow chart with its own data."""
+        name = function.signature.name
+        if name in scope.calls:
+            raise NotLowered(f"{name} calls itself: write a loop")
+        keeper = f"{self.writer.name}.{name}"
+        if function.script:
+            script = {one.signature.name: one for one in function.script}
+            own = replace(scope, node=function.holder, script=script, keeper=keeper, kept=set())
+            return self.script(function.script[0], arguments, own)
+        if function.flow is None or function.drawn.function == "Simulink":
+            raise NotLowered(f"{name} is a Simulink function, or a truth table without its script")
+        flow, signature = function.flow, function.signature
+        for datum_name, one in flow.data.items():
+            self._reset(one, f"{keeper}.{datum_name}")
+            if datum_name in signature.inputs:
+                at = signature.inputs.index(datum_name)
+                if at < len(arguments):
+                    self._all(self.datum(one, arguments[at]), arguments[at], replace(scope, node=flow))
+        inner = TextScope(flow, self.rules, scope.event, calls=(*scope.calls, name), keeper=keeper)
+        self._search(flow.defaults, inner, lambda path: None, in_function=True)
+        return [self.kept(self._now(self.cells[flow.data[name].ssid])) for name in signature.outputs]
+
+    def run_block(self) -> None:
+        """Execute the function of a block: its values are matched with the data by name."""
+        [function] = self.chart.root.functions.values()
+        data = self.chart.root.data
+        scope = self._scope(self.chart.root)
+        names = (name for name in function.script[0].signature.inputs if name is not None)
+        given = [self._now(self.cells[data[name].ssid]) for name in names if name in data]
+        found = self.call(function, given, scope)
+        for name, value in zip(function.script[0].signature.outputs, found, strict=False):
+            if name in data:
+                self._all(self.datum(data[name], value), value, scope)
+
+
+__all__ = ["FunctionWriter"]

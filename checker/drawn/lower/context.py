@@ -1,0 +1,69 @@
+"""What all systems of a model share while it is lowered: its types, charts and names, and what they give."""
+
+from collections.abc import Mapping
+
+from rovercheck.checker.drawn.grammar.errors import GrammarError
+from rovercheck.checker.drawn.grammar.expressions import parse_expression
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Name
+from rovercheck.checker.drawn.lower.blocks import BlockTypes
+from rovercheck.checker.drawn.lower.conversions import IntegerRules
+from rovercheck.checker.drawn.lower.data import DataTable
+from rovercheck.checker.drawn.lower.machine import ChartWriter
+from rovercheck.checker.drawn.lower.model_names import ModelNames
+from rovercheck.checker.drawn.lower.names import TextScope
+from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
+from rovercheck.checker.drawn.lower.view import ChartView
+from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
+from rovercheck.checker.drawn.records import DrawnChart, DrawnContent, DrawnModel
+from rovercheck.spec_model.lang.expr import Expr, Var
+
+
+class LoweringContext:
+    """One attempt to lower a model, with what is known of its data.
+
+    ``step`` is the length of a step in seconds, as written; ``most`` are the statements of a chart's step.
+    """
+
+    def __init__(
+        self, model: DrawnModel, file: str, table: DataTable, charts: Mapping[str, ParsedChart], step: str,
+        most: int,
+    ) -> None:  # fmt: skip
+        self.file, self.table, self._charts = file, table, charts
+        self.step, self.most = step, most
+        self.names = ModelNames(model)
+        self.types = BlockTypes(table.kinds, self.value_of)
+        self.named = {one.name: one.value for one in model.parameters}
+        self.data: dict[str, Expr] = {}
+        self.views: dict[str, ChartView] = {}
+        self.starts: list[ProgramWriter] = []
+        """What charts do that are entered when they are initialized."""
+        self.temporaries: set[str] = set()
+        self.memories: dict[str, Var] = {}
+        """What delays remember, by name: that changes when all else is done."""
+
+    def value_of(self, text: str) -> Symbolic:
+        """The value of a parameter.  Raises ``NotLowered``."""
+        try:
+            tree = parse_expression(text, ActionLanguage.MATLAB)
+            if isinstance(tree, Name) and tree.name in self.named:
+                tree = parse_expression(self.named[tree.name], ActionLanguage.MATLAB)
+        except GrammarError as error:
+            raise NotLowered(f"the parameter {text!r}: {error}") from error
+        bare = ParsedChart(
+            DrawnChart("", "chart", "MATLAB", DrawnContent(), ""), ActionLanguage.MATLAB,
+            StateNode(0, "", "", None), {}, {}, (),
+        )  # fmt: skip
+        writer = ProgramWriter("parameter")
+        view = ChartView(bare, "parameter", self.file)
+        found = ChartWriter(bare, view, self.table, writer, self.step, self.named, lambda one, node: one.name)
+        return found.value(tree, TextScope(bare.root, IntegerRules()))
+
+    def chart(self, path: str) -> ParsedChart:
+        """The chart of a block.  Raises ``NotLowered``."""
+        if path not in self._charts:
+            raise NotLowered(f"the block {path} has no chart in the file")
+        return self._charts[path]
+
+
+__all__ = ["LoweringContext"]

@@ -1,0 +1,127 @@
+"""One system of blocks, in the order of their execution, with the subsystems in it."""
+
+from collections.abc import Sequence
+
+from rovercheck.checker.drawn.lower.blocks import BLOCKS
+from rovercheck.checker.drawn.lower.chart_blocks import ChartBlockWriter
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
+from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.symbols import (
+    NotLowered,
+    Symbolic,
+    SymbolicScalar,
+    filled,
+    folded,
+    leaves,
+    number,
+    size_of,
+)
+from rovercheck.checker.drawn.lower.view import plain_name
+from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
+from rovercheck.checker.drawn.records import DrawnSystem
+from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
+from rovercheck.spec_model.lang.expr import Const, Var, any_of
+
+
+class SystemWriter(ChartBlockWriter):
+    """The components of one system."""
+
+    def lowered(self, given: Sequence[Symbolic]) -> tuple[tuple[Component, ...], list[Symbolic]]:
+        """The components in order, and the outputs."""
+        components: list[Component] = []
+        for node in self.nodes:
+            if node.block.kind in DELAYS:
+                first = self.context.value_of(node.block.parameters.get("InitialCondition", "0"))
+                node.memory = self._remembered(node, first)
+                leaf_vars = (one.expr for _, one in leaves(node.memory, ""))
+                self.context.memories |= {var.name: var for var in leaf_vars if isinstance(var, Var)}
+        for node in self.nodes:
+            try:
+                components += self._component(node, given)
+            except NotLowered as error:
+                where = " ".join(node.block.path.split())
+                raise NotLowered(
+                    str(error) if str(error).startswith(where) else f"{where}: {error}"
+                ) from error
+        self._remember()
+        return tuple(components), [(self._values(node) or [number("double", 0)])[0] for node in self.ends]
+
+    def _component(self, node: BlockNode, given: Sequence[Symbolic]) -> list[Component]:
+        block = node.block
+        if block.kind == "Inport":
+            node.outputs = [given[number_of(block) - 1]]
+        elif node.memory is not None or block.kind == "Outport" or block.kind in CONTROL:
+            return []
+        elif block.chart:
+            return self._chart(node)
+        elif block.kind == "SubSystem" and block.system is not None:
+            return self._subsystem(node, block.system)
+        elif block.kind in BLOCKS:
+            try:
+                node.outputs = BLOCKS[block.kind](block, self._values(node), self.context.types)
+            except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
+                raise NotLowered("its inputs and parameters do not fit each other") from error
+        else:
+            raise NotLowered(f"{block.kind} blocks are not known here")
+        return []
+
+    def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
+        block, context = node.block, self.context
+        inner = SystemWriter(system, context, f"{self._path}_{block.name}".strip("_"))
+        components, ends = inner.lowered(self._values(node))
+        if not node.control:
+            node.outputs = list(ends)
+            self.remembered += inner.remembered
+            return list(components)
+        for one in system.blocks:
+            for name, kind in (("StatesWhenEnabling", "EnablePort"), ("OutputWhenDisabled", "Outport")):
+                if one.kind == kind and one.parameters.get(name, "held") == "reset":
+                    raise NotLowered(f"{name} = reset: held is known here")
+        if node.control == "enable":
+            by, after = folded(any_of(*(folded(one > 0) for one in self._control(node)))), list[Component]()
+        elif node.control == "trigger":
+            ports = [one for one in system.blocks if one.kind == "TriggerPort"]
+            kind = ports[0].parameters.get("TriggerType", "rising") if ports else "rising"
+            count = len(self._control(node))
+            by, after = folded(any_of(*self._edge_conditions(node, [kind] * count))), self._edges(node)
+        else:
+            raise NotLowered(f"a subsystem that is controlled by {node.control}")
+        held, outputs = self._held(inner, ends, components)
+        node.outputs = outputs
+        inside = (*components, *held, *inner.delays())
+        return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
+
+    def _held(
+        self, inner: "SystemWriter", ends: Sequence[Symbolic], components: Sequence[Component]
+    ) -> tuple[list[Component], list[Symbolic]]:
+        """The outputs of a subsystem that does not run in every step: data that stay as they are."""
+        table, outputs, held = self.context.table, list[Symbolic](), list[Component]()
+        written = {name for part in parts(components) for name in part.written}
+        cells_ = (one.expr for _, memory, _ in inner.remembered for _, one in leaves(memory, ""))
+        memories = {var.name: var for var in cells_ if isinstance(var, Var)}
+        for end, value in zip(inner.ends, ends, strict=True):
+            text = end.block.parameters.get("InitialOutput", "[]").strip()
+            own = (isinstance(one.expr, Var) and one.expr.name in written for _, one in leaves(value, ""))
+            if text == "[]" and all(own):
+                outputs.append(value)
+                continue
+            name = inner._named(end.block)
+            first = table.kinds.first_value(value.kind, *size_of(value))
+            remembered = [memories.get(str(one.expr)) for _, one in leaves(value, "")]
+            if text != "[]":
+                first = each_converted(self.context.value_of(text), value.kind, IntegerRules(), table.kinds)
+            elif all(one is not None for one in remembered):
+                begun = (Const(var.init, var.sort) for var in remembered if var is not None)
+                kinds = (one.kind for _, one in leaves(value, ""))
+                first = filled(value, map(SymbolicScalar, kinds, begun))
+            cells = table.declared(name, first, doc=f"the output {end.block.path}")
+            writer = ProgramWriter(name)
+            for (_, cell), (_, new) in zip(leaves(cells, name), leaves(value, name), strict=True):
+                table.write(writer, cell, new.expr)
+            held.append(Block(name, writer.written(), text=f"The output {end.block.path}."))
+            outputs.append(cells)
+        return held, outputs
+
+
+__all__ = ["SystemWriter"]

@@ -1,0 +1,152 @@
+"""The blocks of one system, what feeds each of them, and what delays remember."""
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.lower.context import LoweringContext
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
+from rovercheck.checker.drawn.lower.kinds import sizes
+from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.symbols import (
+    UNTYPED,
+    NotLowered,
+    Symbolic,
+    SymbolicScalar,
+    leaves,
+    matrix,
+    number,
+    single_of,
+    size_of,
+)
+from rovercheck.checker.drawn.lower.view import plain_name
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
+from rovercheck.checker.drawn.wiring import Port, SystemWiring, number_of, wired
+from rovercheck.spec_model.lang.chart import Block, Component
+from rovercheck.spec_model.lang.walk import variables
+
+
+@dataclass
+class BlockNode:
+    """A block with what feeds it, and what it gives."""
+
+    block: DrawnBlock
+    inputs: list[Port | None]
+    control: str = ""
+    fed: Port | None = None
+    outputs: list[Symbolic] = field(default_factory=list)
+    memory: Symbolic | None = None
+
+
+class WiredBlocks:
+    """The blocks of one system.  ``path`` is where it stands in the model, for names."""
+
+    def __init__(self, system: DrawnSystem, context: LoweringContext, path: str) -> None:
+        self.context, self._path = context, path
+        try:
+            self._wiring: SystemWiring = wired(system)
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+        self.nodes = [self._node(block) for block in self._wiring.order]
+        self._by_id = {node.block.id: node for node in self.nodes}
+        self.remembered: list[tuple[str, Symbolic, Symbolic]] = []
+        """The memories of delays here and in subsystems that run in every step, and what they get."""
+        found = [node for node in self.nodes if node.block.kind == "Outport"]
+        self.ends = sorted(found, key=lambda node: number_of(node.block))
+
+    def _node(self, block: DrawnBlock) -> BlockNode:
+        feeds = self._wiring.feeds
+        ports = [int(port) for target, port in feeds if target == block.id and port.isdigit()]
+        inputs = [feeds.get((block.id, str(n))) for n in range(1, max(ports, default=0) + 1)]
+        node = BlockNode(block, inputs)
+        control = [port for target, port in feeds if target == block.id and not port.isdigit()]
+        if control:
+            node.control, node.fed = control[0], feeds[block.id, control[0]]
+        rate = block.parameters.get("SampleTime", "-1").strip()
+        if block.chart:
+            chart = self.context.chart(block.chart).drawn
+            rate = chart.sample_time.strip() or "-1" if chart.update == "discrete" else rate
+        if rate not in ("-1", "0", "inf") and not _same(rate, self.context.step):
+            raise NotLowered(
+                f"the block {block.path} runs every {rate} s, and the model every {self.context.step} s: "
+                "give them one rate"
+            )
+        return node
+
+    def kind_wanted(self, port: DrawnBlock) -> tuple[str, int, int] | None:
+        """The type and size of the chart's datum that an Inport feeds."""
+        for (target, to), (source, _) in self._wiring.feeds.items():
+            node = self._by_id.get(target)
+            if source != port.id or node is None or not to.isdigit() or not node.block.chart:
+                continue
+            data = self.context.chart(node.block.chart).root.data.values()
+            wanted = [one for one in data if one.scope == "input"][int(to) - 1 :][:1]
+            for one in wanted:
+                if kind := self.context.table.kinds.kind(one.type):
+                    return kind, *sizes(one.size)
+        return None
+
+    def _values(self, node: BlockNode) -> list[Symbolic]:
+        return [number("double", 0) if port is None else self._value(port) for port in node.inputs]
+
+    def _value(self, port: Port) -> Symbolic:
+        node = self._by_id.get(port[0])
+        if node is None:
+            raise NotLowered(f"the block {port[0]}, which feeds it, is not there")
+        if node.memory is not None:
+            return node.memory
+        if not 0 < port[1] <= len(node.outputs):
+            raise NotLowered(f"output {port[1]} of {node.block.path} is not there")
+        return node.outputs[port[1] - 1]
+
+    def _named(self, block: DrawnBlock) -> str:
+        return self.context.names.of_block(block, plain_name(f"{self._path}_{block.name}"))
+
+    # --- delays --------------------------------------------------------------------------------------------
+
+    def _remembered(self, node: BlockNode, first: Symbolic) -> Symbolic:
+        """The memory of a delay, in the type that was seen to come in."""
+        name = self._named(node.block)
+        seen = self.context.table.kind_of(name)
+        kind, rows, columns = seen or (first.kind, *size_of(first))
+        made = each_converted(first, kind, IntegerRules(), self.context.table.kinds)
+        if size_of(made) == (1, 1) != (rows, columns):
+            made = matrix([single_of(made)] * (rows * columns), rows, columns)
+        return self.context.table.declared(name, made, doc=f"what {node.block.path} gives")
+
+    def _remember(self) -> None:
+        for node in self.nodes:
+            if node.memory is not None:
+                [value] = self._values(node) or [number("double", 0)]
+                name = self._named(node.block)
+                self.context.table.saw(
+                    name, "double" if value.kind == UNTYPED else value.kind, *size_of(value)
+                )
+                self.remembered.append((name, node.memory, value))
+
+    def delays(self) -> list[Component]:
+        """All delays get their new values together, once nothing reads the old ones any more."""
+        table, pairs = self.context.table, list[tuple[SymbolicScalar, SymbolicScalar]]()
+        writer = ProgramWriter(plain_name(f"{self._path}_Delays".strip("_")))
+        for name, memory, value in self.remembered:
+            for (_, cell), (_, new) in zip(leaves(memory, name), leaves(value, name), strict=True):
+                made = single_of(each_converted(new, cell.kind, IntegerRules(), table.kinds))
+                reads_other = any(one in self.context.memories for one in variables(made.expr))
+                pairs.append((cell, writer.kept("next", made) if reads_other else made))
+        for cell, new in pairs:
+            table.write(writer, cell, new.expr)
+        if not pairs:
+            return []
+        statements = writer.written()
+        temporaries = tuple(writer.temporaries.values())
+        return [Block(writer.name, statements, text="What delays remember.", temporaries=temporaries)]
+
+
+def _same(one: str, other: str) -> bool:
+    try:
+        return Fraction(one) == Fraction(other)
+    except (ValueError, ZeroDivisionError):
+        return False
+
+
+__all__ = ["BlockNode", "WiredBlocks"]
