@@ -11,7 +11,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from tests.schemas import published
 from tests.simulink.samples import package_of
 
-LAMP = '''from rovercheck import Chart, State, flag, to
+LAMP = """from rovercheck import Chart, State, flag, to
 
 lit, broken = flag("lit"), flag("broken")
 lamp = Chart(
@@ -23,7 +23,7 @@ lamp = Chart(
     ],
     default="Off",
 )
-'''
+"""
 
 
 @pytest.fixture

@@ -15,9 +15,7 @@ Examples:
 
 
 @click.command(short_help="Find states and transitions that can never happen.", epilog=EXAMPLES)
-@click.option(
-    "--system", "systems", multiple=True, metavar="NAME", help="Only this system; may be repeated."
-)
+@click.option("--system", "systems", multiple=True, metavar="NAME", help="Only this system; may be repeated.")
 @click.option("--seconds", type=click.FloatRange(0, min_open=True), help="For the searches of a system.")
 @click.option("--json", "as_json", is_flag=True, help="What was found, as JSON.")
 @modelling

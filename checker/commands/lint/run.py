@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Literal
 
 from rovercheck.checker.commands.lint.document import LintRow, LintSummary, document
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
@@ -20,11 +21,12 @@ from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import System
 
 
 def lint(names: Sequence[str], seconds: float | None, as_json: bool, path: Path | None) -> Exit:
-    """Look at the systems of a model.  Raises ``UsageError`` for an unknown one, and for none of the rover."""
+    """Look at the systems of a model.  Raises ``UsageError`` for an unknown one; of the rover some are named."""
     model = rover() if path is None else load(path)
     if path is None and not names:
         raise UsageError("The rover has many systems: name some with --system, as in --system relay.")
@@ -74,11 +76,11 @@ def _asked(system: System) -> Iterator[tuple[Property, LintRow]]:
 
 
 def _question(
-    system: System, chart: str, kind: str, what: str, that: object, number: str
+    system: System, chart: str, kind: Literal["state", "transition"], what: str, that: Expr, number: str
 ) -> tuple[Property, LintRow]:
     id_ = f"{system.name}, {chart}: {number}"
-    prop = reachable(id_, f"{what} happens.", that=that, covers=["lint"], on=system.name)  # type: ignore[arg-type]
-    row = LintRow(system=system.name, chart=chart, kind=kind, what=what, found="unknown", evidence="")  # type: ignore[typeddict-item]
+    prop = reachable(id_, f"{what} happens.", that=that, covers=["lint"], on=system.name)
+    row = LintRow(system=system.name, chart=chart, kind=kind, what=what, found="unknown", evidence="")
     return prop, row
 
 
