@@ -4,9 +4,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.cells import MOST_LISTED
 from rovercheck.checker.system.partition import Partition, partitions
-from rovercheck.checker.system.wide_cells import TooManyValues
+from rovercheck.checker.system.wide_cells import MOST_LISTED, TooManyValues
 from rovercheck.spec_model.lang.domain import Domain
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem

@@ -17,7 +17,18 @@ from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System, charts_of
 
+SIMULINK = ".slx"
+"""What the name of a model of Simulink ends with."""
 EXAMPLE = "`rovercheck init FOLDER` writes an example."
+
+
+class ForeignModel:
+    """A model of another tool, which is read as a system."""
+
+    @property
+    def system(self) -> System:
+        """The system that properties are about."""
+        raise TypeError(f"{type(self).__name__} says no system.")
 
 
 @dataclass(frozen=True)
@@ -61,7 +72,7 @@ class Model:
         """The properties, of which there is one at least.  Raises ``ModelError`` if there is none."""
         if not self.properties:
             forms = "Write one with a form of rovercheck, such as always(...)"
-            if self.path is not None and self.path.suffix == ".slx":
+            if self.path is not None and self.path.suffix == SIMULINK:
                 forms += f", in {self.path.stem}_properties.py beside it (docs/simulink.md)"
             raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
         return self.properties

@@ -11,6 +11,7 @@ from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.model import SIMULINK, ForeignModel
 from rovercheck.checker.model.two_readings import compared_readings
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart
@@ -19,13 +20,12 @@ from rovercheck.spec_model.lang.expr import Expr, any_of
 from rovercheck.spec_model.lang.place import Place, here
 from rovercheck.spec_model.lang.system import Note, System
 
-SUFFIX = ".slx"
 SECONDS = 1.0
 """Seconds for which the system is run beside the direct interpreter whenever a model is read."""
 
 
 @dataclass(frozen=True)
-class SimulinkModel:
+class SimulinkModel(ForeignModel):
     """A model of Simulink with its formulas by their names in Simulink.
 
     ``model["door"]`` is an input, an output or a datum of a chart; elements are named ``probe.level`` and
@@ -108,7 +108,7 @@ def simulink_model(path: str | Path) -> SimulinkModel:
 def read_simulink(path: Path) -> SimulinkModel:
     """The same of a path as it stands; read once as long as nothing of it changes."""
     if not path.exists():
-        raise ModelError(f"There is no {path}; name a model of Simulink, a file {SUFFIX}.")
+        raise ModelError(f"There is no {path}; name a model of Simulink, a file {SIMULINK}.")
     whole = path.resolve()
     files = (whole, domains_path(whole))
     return _read(whole, tuple(one.stat().st_mtime_ns if one.exists() else 0 for one in files))
@@ -158,4 +158,4 @@ def _beside(path: Path, lowered: LoweredModel, said: DomainsFile) -> Iterator[No
     yield Note(f"Real numbers are exact: the interpreter, which rounds them, differs {found}.", "exact reals")
 
 
-__all__ = ["SUFFIX", "SimulinkModel", "lowered_simulink", "read_simulink", "simulink_model"]
+__all__ = ["SimulinkModel", "lowered_simulink", "read_simulink", "simulink_model"]

@@ -9,8 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from rovercheck.checker.model import shown
-from rovercheck.checker.model.drawn import SUFFIX
+from rovercheck.checker.model import SIMULINK, shown
 from rovercheck.checker.model.neighbours import Neighbours
 from rovercheck.checker.model.statements import statement_faults
 from rovercheck.spec_model.lang.chart import Chart
@@ -37,7 +36,7 @@ def files_of(path: Path) -> list[Path]:
         return inside
     if not path.exists():
         raise ModelError(f"There is no {shown(path)}; {_MODELS}.")
-    if path.suffix == SUFFIX:
+    if path.suffix == SIMULINK:
         return _properties_of(path)
     if path.suffix != ".py":
         raise ModelError(f"{shown(path)} is no Python file; {_MODELS}.")

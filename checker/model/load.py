@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from rovercheck.checker.model import EXAMPLE, Model, shown
+from rovercheck.checker.model import EXAMPLE, SIMULINK, ForeignModel, Model, shown
 from rovercheck.checker.model.checks import (
     check_portable,
     concrete_faults,
@@ -14,7 +14,6 @@ from rovercheck.checker.model.checks import (
     property_faults,
     system_faults,
 )
-from rovercheck.checker.model.drawn import SUFFIX, SimulinkModel, read_simulink
 from rovercheck.checker.model.execute import files_of, modules_of
 from rovercheck.checker.model.kinds import kind_faults
 from rovercheck.checker.model.records import REGISTER, hazards_of, recorded, register
@@ -36,7 +35,7 @@ def load(path: Path) -> Model:
     ``REQUIREMENTS``, hazards from ``hazards.toml``.  Raises ``ModelError`` for what has no meaning, with a
     line for each fault; only a thing that is faulty already, or what it is about, is not looked at further.
     """
-    drawn = [read_simulink(path)] if path.suffix == SUFFIX and path.exists() else []
+    drawn = [_drawn(path)] if path.suffix == SIMULINK and path.exists() else []
     files = files_of(path)
     folder = files[0].parent if files else path.parent
     neighbours, modules, faults = modules_of(files, folder)
@@ -66,6 +65,13 @@ def load(path: Path) -> Model:
         )
     check_portable((found.systems, found.properties), neighbours.package, path)
     return Model(found.systems, found.properties, on_record, requirements, path, hazards=hazards)
+
+
+def _drawn(path: Path) -> ForeignModel:
+    """A model of Simulink: what reads it is loaded only then."""
+    from rovercheck.checker.model.drawn import read_simulink
+
+    return read_simulink(path)
 
 
 def model(*things: Chart | System | Property) -> Model:
@@ -194,7 +200,7 @@ def _things(values: Iterable[object]) -> Iterator[object]:
     todo, seen = list(values)[::-1], set[int]()
     while todo:
         value = todo.pop()
-        if isinstance(value, SimulinkModel):
+        if isinstance(value, ForeignModel):
             value = value.system
         if not isinstance(value, tuple | list):
             yield value

@@ -6,7 +6,7 @@ from itertools import groupby
 
 from rovercheck.checker.render.story import start_values, value
 from rovercheck.checker.results.trace import Trace, counted_ticks
-from rovercheck.checker.system.cells import MOST_LISTED
+from rovercheck.checker.system.wide_cells import MOST_LISTED
 from rovercheck.spec_model.lang.domain import Num
 
 

@@ -6,16 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rovercheck.checker.system.arrays import ArrayProgram, Column, column
-from rovercheck.checker.system.wide_cells import split_wide
+from rovercheck.checker.system.wide_cells import MOST_LISTED, split_wide
 from rovercheck.spec_model.lang.expr import Expr, Var
 
 Array = NDArray[np.int64]
 Split = tuple[list[tuple[int, int]], Sequence[int], Sequence[int]]
 """The lowest value and the size of each cell; the admissible values; the number of the cell of each."""
-
-
-MOST_LISTED = 1 << 20
-"""Values of a variable that are listed; of one with more, only the limits are looked for."""
 
 
 def split(var: Var, alone: Sequence[Expr], required: Sequence[Expr]) -> Split:

@@ -12,6 +12,8 @@ from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 
+MOST_LISTED = 1 << 20
+"""Values of a variable that are listed; of one with more, only the limits are looked for."""
 _RISING = frozenset({Op.SCALE, Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.MIN, Op.MAX, Op.NEG})
 """Operators that keep the order of their one variable argument, or turn it round."""
 _JOINING = frozenset({Op.AND, Op.OR, Op.NOT, Op.ITE, Op.EQ, Op.NE})
@@ -150,4 +152,4 @@ def _limits(comparison: Apply, var: Var) -> Iterator[int]:
         yield high
 
 
-__all__ = ["CellNumbers", "Stretches", "TooManyValues", "split_wide"]
+__all__ = ["MOST_LISTED", "CellNumbers", "Stretches", "TooManyValues", "split_wide"]

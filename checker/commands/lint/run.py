@@ -26,7 +26,7 @@ from rovercheck.spec_model.lang.system import System
 
 
 def lint(names: Sequence[str], seconds: float | None, as_json: bool, path: Path | None) -> Exit:
-    """Look at the systems of a model.  Raises ``UsageError`` for an unknown one; of the rover some are named."""
+    """Look at the systems of a model.  Raises ``UsageError`` for an unknown one, and for none."""
     model = rover() if path is None else load(path)
     if path is None and not names:
         raise UsageError("The rover has many systems: name some with --system, as in --system relay.")

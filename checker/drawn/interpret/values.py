@@ -2,10 +2,9 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import isinf, isnan, trunc
+from math import copysign, inf, isinf, isnan, trunc
+from struct import pack, unpack
 from typing import TypeAlias, Union
-
-import numpy as np
 
 from rovercheck.checker.drawn.faults import DrawnFault
 
@@ -134,8 +133,11 @@ def nearest(value: float) -> int:
 
 def single(value: float) -> float:
     """The number in single precision."""
-    with np.errstate(over="ignore"):
-        return float(np.float32(value))
+    try:
+        [found] = unpack("f", pack("f", value))
+    except OverflowError:
+        return copysign(inf, value)
+    return float(found)
 
 
 def converted(value: Scalar, kind: str, rules: NumberRules) -> Scalar:
