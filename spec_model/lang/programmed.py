@@ -11,6 +11,7 @@ from functools import cached_property
 
 from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
 from rovercheck.spec_model.lang.chart import Chart, Path, State
+from rovercheck.spec_model.lang.domain import Domain, Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.figure import ChartFigure
@@ -38,6 +39,15 @@ class StepProgram:
     def unmarked(self) -> Program:
         """The statements without the markers of what fired."""
         return without(self.statements, self.fired)
+
+
+FAULT = Domain(Num(), (0,))
+"""The domain of what is assigned 1 in a step that has no meaning; its ``doc`` says why."""
+
+
+def is_fault(var: Var) -> bool:
+    """Whether an assignment to a variable only says that a step has no meaning."""
+    return var.domain is FAULT or (var.hidden and var.domain == FAULT and bool(var.doc))
 
 
 class ProgrammedChart(Chart):
@@ -151,4 +161,4 @@ def without(statements: Program, names: Collection[str]) -> Program:
     return tuple(made)
 
 
-__all__ = ["ProgrammedChart", "StepProgram", "without"]
+__all__ = ["FAULT", "ProgrammedChart", "StepProgram", "is_fault", "without"]

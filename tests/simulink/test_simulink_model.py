@@ -18,6 +18,7 @@ from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.domain import Domain, fixed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.samples import SAMPLES, package_of
+from tests.simulink.writer.packages import WrittenModel
 
 QUARTERS = fixed(-100, 100, "0.25")
 SUMS = fixed(-100_000, 100_000, "0.25")
@@ -144,3 +145,28 @@ def test_readings_that_differ_are_told_in_place_of_a_model(
     monkeypatch.setattr(drawn, "compared_readings", lambda *_: Readings(1, 3, wrong))
     with pytest.raises(ModelError, match="differ in tick 3 level is 1 and 2, after Off to Dim"):
         simulink_model(path)
+
+
+# --- steps without a meaning -------------------------------------------------------------------------------
+
+
+def test_a_step_without_a_meaning_is_told_in_place_of_a_verdict(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = WrittenModel("guarded")
+    block, drawn = model.root.chart("C")
+    state = drawn.state("A")
+    drawn.data("go", "input", "boolean")
+    drawn.transition(None, state, "[go]")
+    model.root.line(model.root.inport("go", 1, OutDataTypeStr="boolean"), f"{block}/1")
+    path = model.save(tmp_path / "guarded.slx")
+    (tmp_path / "guarded_properties.py").write_text(
+        "from rovercheck import always, simulink_model\n"
+        "m = simulink_model('guarded.slx')\n"
+        "P = always('G-1', 'It is on.', that=m.active('A'), covers=['R'], on=m.system)\n",
+        encoding="utf-8",
+    )
+    assert run(["check", "--model", str(path)]) == Exit.USAGE
+    said = " ".join(capsys.readouterr().err.split())
+    assert "no default transition of C may lead to a state, first in tick 1." in said
+    assert "From there on the model has no meaning: change what is drawn." in said

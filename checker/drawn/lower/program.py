@@ -18,11 +18,10 @@ from rovercheck.checker.drawn.lower.symbols import (
 from rovercheck.spec_model.lang.action import Assign, If, reads
 from rovercheck.spec_model.lang.domain import Bool, Domain, Num, boolean, common_resolution, fixed
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_of, rescale
-from rovercheck.spec_model.lang.programmed import without
+from rovercheck.spec_model.lang.programmed import FAULT, without
 from rovercheck.spec_model.lang.system import Statement
 
 MOST_STATEMENTS = 100_000
-_NEVER = Domain(Num(), (0,))
 
 
 class TooManyStatements(Exception):
@@ -85,7 +84,7 @@ class ProgramWriter:
         """Note that a step has no meaning: ``what`` says why, as a sentence about this system."""
         if what not in self.faults:
             number = len(self.faults) + 1
-            self.faults[what] = Var(f"{self.name}.fault{number}", _NEVER, 0, what, hidden=True)
+            self.faults[what] = Var(f"{self.name}.fault{number}", FAULT, 0, what, hidden=True)
         self._rows.append(Assign(self.faults[what], Const(1, Num())))
         self._grow(1)
 

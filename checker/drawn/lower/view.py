@@ -76,7 +76,8 @@ class ChartView:
         return "" if label_of(one.drawn) == "?" else label_of(one.drawn)
 
     def _place(self, line: int, ssid: int) -> Place:
-        return Place(f"{self._file}, {self.chart.drawn.part} SSID {ssid}", line)
+        element = f" SSID {ssid}" if ssid else ""
+        return Place(f"{self._file}, {self.chart.drawn.part}{element}", max(1, line))
 
     # --- states --------------------------------------------------------------------------------------------
 

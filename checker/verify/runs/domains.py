@@ -9,13 +9,13 @@ from dataclasses import dataclass
 
 from rovercheck.checker.results.verdict import Run
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.lower.ranges import broken, protected
-from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.programmed import ProgrammedChart, is_fault
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 
@@ -54,18 +54,21 @@ def stray(system: TransitionSystem, run: Run) -> DomainViolation | None:
 def leaves(system: TransitionSystem, found: DomainViolation, *, first: bool = False) -> LeavesDomain:
     """The error that a stray assignment is; ``first``: no run of the system has one earlier."""
     when = f"first in tick {found.tick}" if first else f"in tick {found.tick} of a run"
-    place = _writer(system, found.assignment.var)
-    return LeavesDomain(
-        f"{f'{place}: ' if place else ''}{system.name}: {found.text}, {when}. "
-        "Widen the domain, or limit the value with minimum() and maximum()."
-    )
+    writers = _writers(system, found.assignment.var)
+    places = {part.place for part in writers}
+    [place] = places if len(places) == 1 else [None]
+    said, how = found.text, "Widen the domain, or limit the value with minimum() and maximum()."
+    if any(isinstance(part, ProgrammedChart) for part in writers):
+        how = "Give it a wider domain in the file of domains, or limit the value in the chart."
+    if is_fault(found.assignment.var):
+        said, how = found.assignment.var.doc, "From there on the model has no meaning: change what is drawn."
+    return LeavesDomain(f"{f'{place}: ' if place else ''}{system.name}: {said}, {when}. {how}")
 
 
-def _writer(system: TransitionSystem, var: Var) -> Place | None:
-    """Where what writes a variable is written: a block, or a chart, if only one does."""
+def _writers(system: TransitionSystem, var: Var) -> list[Chart | Block]:
+    """The charts and blocks that write a variable."""
     components = system.source.components if system.source else ()
-    places = {part.place for part in parts(components) if var.name in part.written}
-    return places.pop() if len(places) == 1 else None
+    return [part for part in parts(components) if var.name in part.written]
 
 
 def stayed(system: TransitionSystem, after: Mapping[str, int]) -> bool:
