@@ -170,3 +170,17 @@ def test_a_step_without_a_meaning_is_told_in_place_of_a_verdict(
     said = " ".join(capsys.readouterr().err.split())
     assert "no default transition of C may lead to a state, first in tick 1." in said
     assert "From there on the model has no meaning: change what is drawn." in said
+
+
+def test_a_time_that_is_no_whole_number_of_steps_is_told(tmp_path: Path) -> None:
+    model = WrittenModel("odd", "0.1")
+    _, drawn = model.root.chart("C")
+    first, second = drawn.state("A"), drawn.state("B")
+    drawn.transition(None, first)
+    drawn.transition(first, second, "[after(0.25, sec)]")
+    drawn.transition(second, first, "[after(0.3, sec)]")
+    found = simulink_model(model.save(tmp_path / "odd.slx"))
+    assert found.lowered.notes == (
+        "after(0.25, sec) in C/A is no whole number of steps: it counts 3 of them.",
+    )
+    assert found.system.limited_to == ""

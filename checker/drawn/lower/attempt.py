@@ -53,14 +53,14 @@ class LoweringAttempt:
         shown = {
             name: next((v for v, _ in written if v.name == name), expr) for name, expr in outputs.items()
         }
-        notes = tuple(self.table.notes.values())
+        notes, remarks = tuple(self.table.notes.values()), tuple(self.table.remarks.values())
         step_ms, said = _milliseconds(self.step)
 
         def system_of(*parts: Component) -> System:
             return in_order(
                 plain_name(self.model.name), *parts,
                 text=f"The model {self.model.name}, read from {self._file}.",
-                notes=[Note(one, brief="rounded data") for one in notes] + said, tick_ms=step_ms,
+                notes=[*(Note(one, brief="rounded data") for one in notes), *remarks, *said], tick_ms=step_ms,
             )  # fmt: skip
 
         system = system_of(*components)
@@ -68,7 +68,9 @@ class LoweringAttempt:
             system = system_of(*components, unwritten)
         taken = frozenset(self.table.declared_names)
         data, views = self.context.data, self.context.views
-        return LoweredModel(self.model, system, self.inputs, shown, data, views, notes, taken, self._computes)
+        return LoweredModel(
+            self.model, system, self.inputs, shown, data, views, (*notes, *remarks), taken, self._computes
+        )
 
     @property
     def _computes(self) -> bool:
@@ -149,18 +151,16 @@ def _variables(statements: Program) -> Iterator[Var]:
         yield from variables(formula).values()
 
 
-def _milliseconds(step: str) -> tuple[int, list[Note]]:
+def _milliseconds(step: str) -> tuple[int, list[str]]:
     """The length of a step in whole milliseconds, and a note where it is none."""
     try:
         exact = Fraction(step.strip()) * 1000
     except (ValueError, ZeroDivisionError):
-        return 1, [
-            Note("The length of a step is not in the file; times are told in steps of 1 ms.", brief="")
-        ]
+        return 1, ["The length of a step is not in the file; times are told in steps of 1 ms."]
     if exact.denominator == 1 and exact >= 1:
         return int(exact), []
     said = f"A step lasts {float(exact):g} ms; times are told as if it were whole milliseconds."
-    return max(1, round(exact)), [Note(said, brief="")]
+    return max(1, round(exact)), [said]
 
 
 __all__ = ["LoweringAttempt"]

@@ -85,6 +85,8 @@ class DataTable:
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
+    remarks: dict[str, str] = field(default_factory=dict)
+    """What is to be known of a model, and changes nothing of what a verdict says."""
 
     def declared(self, name: str, value: Symbolic, hidden: bool = False, doc: str = "") -> Symbolic:
         """Variables for a datum that begins as ``value``."""
@@ -154,7 +156,7 @@ class DataTable:
     def begin(self) -> None:
         """A new attempt."""
         self.changed, self.met = set(), set()
-        self.notes = {}
+        self.notes, self.remarks = {}, {}
 
     def shortened(self) -> bool:
         """Have less of what makes a step long: those in which more happens have no meaning then."""

@@ -113,6 +113,9 @@ class ChartTimes:
         counts_steps = unit in UNITS or unit == "tick"
         if not counts_steps and event != unit:
             return const(False)
+        if unit in UNITS and isinstance(steps, Const) and least_and_greatest(steps)[1] != most:
+            asked = f"{name}({limit}, {unit}) in {node.path}"
+            self._table.remarks[asked] = f"{asked} is no whole number of steps: it counts {most} of them."
         if name == "every":
             if not isinstance(steps, Const) or most < 1 or least_and_greatest(steps)[0] != most:
                 raise NotLowered("`every` so many steps, and their number is no whole constant")
