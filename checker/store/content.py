@@ -14,6 +14,7 @@ from hashlib import blake2b
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.chart import Block, Chart, Enabled
 from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from rovercheck.spec_model.lang.system import Assumption, System
 
 _BYTES = 20
@@ -26,7 +27,8 @@ _FOR_READERS: Mapping[type, frozenset[str]] = {
 """Fields of records that only readers look at."""
 _READ: Mapping[type, tuple[str, ...]] = {
     Chart: ("name", "root", "local_to", "label_faults"),
-    Block: ("name", "do"),
+    ProgrammedChart: ("name", "root", "program"),
+    Block: ("name", "do", "temporaries"),
     Enabled: ("by", "components", "name"),
 }
 """What there is of components that are no records."""

@@ -14,6 +14,9 @@ NAME = "OPERATIONS"
 WITHOUT = {
     "rovercheck.checker.conformance.program": "has the table of Python's text, with two rows for decimals",
     "rovercheck.checker.export.infix": "is the part that the tables of SMV and Promela have in common",
+    "rovercheck.checker.drawn.lower.bits": "makes formulas",
+    "rovercheck.checker.drawn.lower.rounding": "makes formulas",
+    "rovercheck.checker.system.wide_cells": "asks which operators keep the order of numbers",
     "rovercheck.checker.encode.terms": "simplifies some operators, and leaves the others as they are",
     "rovercheck.checker.mutate.rounding": "makes formulas",
     "rovercheck.spec_model.lang.words": "makes formulas",

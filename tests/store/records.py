@@ -69,6 +69,8 @@ NO_PART = {
     "Leg": "what is looked at when charts are judged",
     "_Site": "what is looked at when charts are judged",
     "Place": "where something is written",
+    "ChartFigure": "where something is drawn",
+    "StepProgram": "enters with its chart, whole",
     "ActionCall": "how shared actions are shown: the actions themselves enter",
     "Array": "variables under one name: a System holds the variables",
     "Extent": "a part of a label's text",

@@ -139,7 +139,7 @@ def test_of_components_that_are_no_records_all_enters_but_words() -> None:
     assert [*inspect.signature(Chart).parameters] == [
         "name", "states", "default", "junctions", "parallel", "text", "local_to", "data", "place",
     ]  # fmt: skip
-    assert [*inspect.signature(Block).parameters] == ["name", "do", "text", "place"]
+    assert [*inspect.signature(Block).parameters] == ["name", "do", "text", "temporaries", "place"]
     assert [*inspect.signature(Enabled).parameters] == ["by", "components", "name", "place"]
     s, t = State("S"), State("T")
     charts = [

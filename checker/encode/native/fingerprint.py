@@ -34,6 +34,7 @@ SOURCES = (
     "checker/system/text.py",
     "checker/system/partition.py",
     "checker/system/slice.py",
+    "checker/system/wide_cells.py",
     "spec_model/__init__.py",
     "spec_model/lang",
 )
