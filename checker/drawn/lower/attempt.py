@@ -16,7 +16,7 @@ from rovercheck.checker.drawn.records import DrawnBlock, DrawnModel
 from rovercheck.checker.drawn.wiring import number_of
 from rovercheck.spec_model.lang.action import Assign, each_action, expressions
 from rovercheck.spec_model.lang.chart import Block, Component
-from rovercheck.spec_model.lang.domain import boolean
+from rovercheck.spec_model.lang.domain import Num, boolean
 from rovercheck.spec_model.lang.evaluate import run
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.system import Note, Program, System, in_order
@@ -74,7 +74,8 @@ class LoweringAttempt:
 
     @property
     def _computes(self) -> bool:
-        return bool(self.table.ranges) or bool(self.table.given.keys() - self.inputs.keys())
+        given = (one.sort for name, one in self.table.given.items() if name not in self.inputs)
+        return bool(self.table.ranges) or any(isinstance(one, Num) and one.resolution != 1 for one in given)
 
     def _input(self, port: DrawnBlock, top: SystemWriter) -> Symbolic:
         kind = self.table.kinds.kind(port.parameters.get("OutDataTypeStr", "Inherit"))
@@ -110,7 +111,8 @@ class LoweringAttempt:
                 continue
             domain = domain_of(expr)
             taken = name in self.inputs or name in self.context.data or name in self.context.memories
-            var = Var(f"{name} out" if taken else name, domain, domain.low, f"output of {self.model.name}")
+            first = 0 if 0 in domain else domain.low
+            var = Var(f"{name} out" if taken else name, domain, first, f"output of {self.model.name}")
             found.append((var, in_steps(expr, var)))
         return found
 
