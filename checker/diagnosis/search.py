@@ -41,7 +41,7 @@ from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import System
 
-SECONDS = 120.0
+SECONDS = 300.0
 """How long the causes of one part are looked for, in seconds of the processor."""
 
 MOST_DURATIONS = 40

@@ -202,4 +202,4 @@ def test_runs_beyond_what_is_kept_are_counted(folder: Path, monkeypatch: pytest.
 def test_every_verb_looks_for_causes_as_long_as_the_pages_say(verb: str) -> None:
     """The command line had half of the time that docs/compare.md gives."""
     [option] = [one for one in VerbTable()[verb].params if one.name == "seconds"]
-    assert option.default == SECONDS == 120
+    assert option.default == SECONDS == 300

@@ -37,7 +37,7 @@ class LogOptions:
     jobs: int | None = None
     scheduler: "Cluster | None" = None
     causes: bool = False
-    seconds: float = 120.0
+    seconds: float = 300.0
 
 
 @click.command(short_help="Check logs recorded on a board.")

@@ -40,7 +40,7 @@ class ComparisonOptions:
     write_known: Path | None = None
     write_variant: Path | None = None
     causes: bool | None = None
-    seconds: float = 120.0
+    seconds: float = 300.0
     jobs: int = 1
     scheduler: "Cluster | None" = None
 

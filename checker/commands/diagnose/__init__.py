@@ -17,7 +17,7 @@ class DiagnoseOptions:
     system: str | None = None
     variant: Path | None = None
     write: Path | None = None
-    seconds: float = 120.0
+    seconds: float = 300.0
     as_json: bool = False
 
 
