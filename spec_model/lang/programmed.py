@@ -26,19 +26,26 @@ class StepProgram:
     """What a chart does in a step.
 
     ``temporaries`` are written before they are read in every step.  ``fired`` says which path was taken where
-    its marker, a variable that nothing reads, is assigned.  ``starting`` are raw values that variables have
-    before the first step, of a chart that is entered when it is initialized.
+    its marker, a variable that nothing reads, is assigned; ``tested`` in the same way which transition with
+    a condition was tested, and whether that held.  ``starting`` are raw values that variables have before the
+    first step, of a chart that is entered when it is initialized.
     """
 
     statements: Program
     temporaries: tuple[Var, ...] = ()
     starting: Mapping[str, int] = field(default_factory=dict)
     fired: Mapping[str, FiredTransition] = field(default_factory=dict)
+    tested: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
 
     @cached_property
     def unmarked(self) -> Program:
-        """The statements without the markers of what fired."""
-        return without(self.statements, self.fired)
+        """The statements without the markers of what fired, and of what was tested."""
+        return without(self.statements, self.markers)
+
+    @cached_property
+    def markers(self) -> frozenset[str]:
+        """The variables that are only assigned to tell something."""
+        return frozenset((*self.fired, *self.tested))
 
 
 FAULT = Domain(Num(), (0,))
@@ -117,7 +124,7 @@ class ProgrammedChart(Chart):
     def _own(self) -> frozenset[str]:
         """The names of its temporaries, its markers and its active states."""
         places = {place.name for place in (*self.locations, self.entered)}
-        return frozenset({v.name for v in self.program.temporaries} | places | self.program.fired.keys())
+        return frozenset({v.name for v in self.program.temporaries} | places | self.program.markers)
 
     @cached_property
     def written(self) -> dict[str, Var]:

@@ -10,6 +10,7 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from tests.schemas import published
 from tests.simulink.samples import package_of
+from tests.simulink.writer.packages import WrittenModel
 
 LAMP = """from rovercheck import Chart, State, flag, to
 
@@ -18,8 +19,10 @@ lamp = Chart(
     "Lamp",
     [
         State("Off", transitions=[to("On", when=lit), to("Burnt", when=lit)]),
-        State("On", transitions=[to("Off", when=~lit)]),
+        State("On", transitions=[to("Worn", when=~lit & broken), to("Off", when=~lit), to("On", when=broken)]),
+        State("Worn", transitions=[to("Gone", when=lit | ~lit)]),
         State("Burnt"),
+        State("Gone"),
     ],
     default="Off",
 )
@@ -38,16 +41,80 @@ def test_what_never_happens_is_told_with_its_proof(model: str, capsys: pytest.Ca
     said = " ".join(capsys.readouterr().out.split())
     assert "✗ Lamp, Lamp: state Burnt is never active." in said
     assert "✗ Lamp, Lamp: transition Off -> Burnt (transition 2) [lit] is never taken." in said
-    assert "Off -> On" not in said and "3 states, 4 transitions, 2 of them as above" in said
+    assert "5 states, 7 transitions, 2 of them as above" in said
     assert "reachable states of Lamp" in said
+
+
+def test_conditions_that_always_hold_and_orders_that_decide_are_told(
+    model: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["lint", "--model", model]) == Exit.FAILED
+    said = " ".join(capsys.readouterr().out.split())
+    worn = "Worn -> Gone (transition 1) [lit || !lit]"
+    assert f"✗ Lamp, Lamp: the condition of {worn} always holds where it is tested." in said
+    both = "On -> Worn (transition 1) [!lit && broken] and On -> Off (transition 2) [!lit]"
+    assert f"• Lamp, Lamp: transitions {both} hold at the same time in some run: their order decides." in said
+    assert (
+        "On -> Off (transition 2) [!lit] and" not in said
+    )  # [!lit] and [broken]: the first one was not taken
+    assert "• Lamp, Lamp: state Gone is never left once it is active." in said
+    assert "state Burnt is never left" not in said
+
+
+DOOR = """from rovercheck import Chart, State, flag, to
+
+push, lock = flag("push"), flag("lock")
+door = Chart(
+    "Door",
+    [
+        State("Shut", transitions=[to("Open", when=push), to("Locked", when=lock)]),
+        State("Open", transitions=[to("Shut", when=~push)]),
+        State("Locked"),
+    ],
+    default="Shut",
+)
+"""
+
+
+def test_an_order_that_decides_is_no_failure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "door.py"
+    file.write_text(DOOR, encoding="utf-8")
+    assert run(["lint", "--model", str(file)]) == Exit.AS_EXPECTED
+    said = " ".join(capsys.readouterr().out.split())
+    assert "their order decides." in said and "state Locked is never left" in said and "✗" not in said
+
+
+def test_conditions_of_imported_charts_that_always_hold_are_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One that is never tested is told by its transition, not here."""
+    model = WrittenModel("one", step="0.1")
+    port, end = model.root.inport("u", 1, OutDataTypeStr="boolean"), model.root.outport("y", 1)
+    block, chart = model.root.chart("C")
+    chart.data("u", "input", "boolean")
+    chart.data("y", "output", "boolean")
+    a, b, c = (chart.state(f"{name}\nen: y = {value};") for name, value in zip("ABC", "010", strict=True))
+    chart.transition(None, a)
+    chart.transition(a, b, "[u]")
+    chart.transition(b, a, "[u || y]")
+    chart.transition(c, a, "[u]")
+    model.root.line(port, block)
+    model.root.line(block, end)
+    assert run(["lint", "--model", str(model.save(tmp_path / "one.slx"))]) == Exit.FAILED
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.count("always holds where it is tested") == 1
+    assert "the condition of the transition `[u || y]`" in said and "state C is never active" in said
 
 
 def test_the_document_is_as_published(model: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["lint", "--model", model, "--json"]) == Exit.FAILED
     told = json.loads(capsys.readouterr().out)
     Draft202012Validator(published("lint-1")).validate(told)
-    assert {row["found"] for row in told["findings"]} == {"never"}
-    assert told["systems"] == [{"system": "Lamp", "states": 3, "transitions": 4}]
+    found = {(row["kind"], row["found"]) for row in told["findings"]}
+    assert found == {(kind, "never") for kind in ("state", "transition", "condition", "way out")} | {
+        ("order", "happens")
+    }
+    assert told["systems"] == [{"system": "Lamp", "states": 5, "transitions": 7}]
 
 
 def test_charts_of_simulink_are_asked_by_their_paths(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,4 +1,4 @@
-"""The verb ``lint``: what in charts can never happen."""
+"""The verb ``lint``: what in charts can never happen, and what decides nothing."""
 
 from pathlib import Path
 
@@ -21,9 +21,11 @@ Examples:
 @modelling
 @quietly
 def lint(systems: tuple[str, ...], seconds: float | None, as_json: bool, model: Path | None) -> Exit:
-    """Find states of charts that are never active, and transitions that are never taken, without a property.
+    """Find states of charts that are never active, transitions that are never taken, conditions that always
+    hold where they are tested, without a property.
 
-    Exit code 1 if there is one, 2 if something could not be decided.
+    Also told are transitions of which only the order decides, and states that are never left: these may be
+    meant. Exit code 1 if there is one of the former, 2 if something could not be decided.
     """
     from rovercheck.checker.commands.lint.run import lint as run
 

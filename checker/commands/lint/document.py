@@ -10,13 +10,17 @@ from rovercheck.checker.results.exit_code import Exit
 
 
 class LintRow(TypedDict):
-    """A state or a transition of a chart, and whether some run gets there."""
+    """A state or a transition of a chart, its condition or its order, and whether some run shows it.
+
+    A state is active, or left, in some run; a transition is taken; its condition does not hold where it is
+    tested; it holds together with that of a later transition, so that the order decides.
+    """
 
     system: Text
     chart: Text
-    kind: Literal["state", "transition"]
+    kind: Literal["state", "transition", "condition", "order", "way out"]
     what: Text
-    """The path of the state; or where the transition starts and ends, with its label."""
+    """The path of the state; or where the transition starts and ends, with its label, both for an order."""
     found: Literal["happens", "never", "unknown"]
     evidence: Text
     """What that rests on."""
@@ -36,7 +40,7 @@ class LintDocument(TypedDict):
     schema: Literal["rovercheck/lint/1"]
     exit: Exit
     findings: Sequence[LintRow]
-    """What never happens, and what was not decided."""
+    """What never happens, what only the order decides, and what was not decided."""
     systems: Sequence[LintSummary]
 
 

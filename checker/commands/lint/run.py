@@ -1,10 +1,11 @@
-"""``rovercheck lint``: every state and transition of charts asked whether some run gets there."""
+"""``rovercheck lint``: what can never happen in charts, and where only the order of transitions decides."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
 from rovercheck.checker.commands.lint.document import LintRow, LintSummary, document
+from rovercheck.checker.commands.lint.guards import guard_questions, without_way_out
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, out, text_width
 from rovercheck.checker.commands.shared.select import pick
@@ -41,18 +42,41 @@ def lint(names: Sequence[str], seconds: float | None, as_json: bool, path: Path 
     search = SearchSettings(limits=Limits(seconds=seconds), traces=False)
     for result in results(properties, looked, search, quiet=as_json):
         _answer(questions[result.property.id], result)
+    guards = guard_questions(chosen.keys(), model.systems, looked)
+    told = dict((prop.id, row) for prop, row in guards.asked)
+    for result in results([prop for prop, _ in guards.asked], guards.systems, search, quiet=as_json):
+        _answer(told[result.property.id], result)
+    again = {prop.id: told[of] for of, prop in guards.again.items() if told[of]["found"] == "never"}
+    asked_again = [prop for prop in guards.again.values() if prop.id in again]
+    for result in results(asked_again, guards.systems, search, quiet=as_json) if asked_again else ():
+        if isinstance(result.verdict, Violated):  # it is never tested, which its transition tells
+            again[result.property.id]["found"] = "happens"
     rows = [row for row in questions.values() if row["found"] != "happens"]
+    rows += [row for row in told.values() if row["found"] in _WORTH[row["kind"]]]
+    never = {(row["chart"], row["what"]) for row in rows if row["kind"] == "state"}
+    ends = (row for system in chosen.values() for row in without_way_out(system))
+    rows += [row for row in ends if (row["chart"], row["what"]) not in never]
     summaries = [_summary(name, [row for _, row in asked[name]]) for name in chosen]
-    undecided = any(row["found"] == "unknown" for row in rows)
-    code = Exit.AS_EXPECTED if not rows else Exit.INCONCLUSIVE if undecided else Exit.FAILED
-    if any(row["found"] == "never" for row in rows):
-        code = Exit.FAILED
+    code = _code(rows)
     if as_json:
         print(json_text(document(rows, summaries, code), ascii=True))
         return code
     for line in _told(rows, summaries):
         out.print(line, markup=False)
     return code
+
+
+_WORTH = {"condition": ("never", "unknown"), "order": ("happens", "unknown")}
+"""What is told of guards: conditions that always hold, and orders that decide."""
+
+
+def _code(rows: Iterable[LintRow]) -> Exit:
+    """That the order decides, and a state that is not left, may be meant."""
+    found = {row["found"] for row in rows if row["kind"] not in ("order", "way out")}
+    undecided = any(row["found"] == "unknown" for row in rows)
+    if "never" in found:
+        return Exit.FAILED
+    return Exit.INCONCLUSIVE if undecided else Exit.AS_EXPECTED
 
 
 def _with_concrete(chosen: Iterable[str], systems: Mapping[str, System]) -> list[str]:
@@ -100,19 +124,38 @@ def _summary(name: str, rows: Sequence[LintRow]) -> LintSummary:
 
 def _told(rows: Sequence[LintRow], summaries: Sequence[LintSummary]) -> Iterator[str]:
     for row in rows:
-        verb = "active" if row["kind"] == "state" else "taken"
-        where = f"{row['system']}, {row['chart']}: {row['kind']} {row['what']}"
-        if row["found"] == "never":
-            yield _wrapped(f"✗ {where} is never {verb}.")
-        else:
-            yield _wrapped(f"? {where}: whether it is ever {verb} was not decided.")
+        mark, said = _sentence(row)
+        kind = _CALLED.get(row["kind"], row["kind"])
+        yield _wrapped(f"{mark} {row['system']}, {row['chart']}: {kind} {row['what']}{said}")
         yield _wrapped(row["evidence"], "    ")
     for one in summaries:
         own = [row for row in rows if row["system"] == one["system"]]
+        asked = [row for row in own if row["kind"] in ("state", "transition")]
         many = counted(one["transitions"], "transition", "transitions")
         said = f"{counted(one['states'], 'state', 'states')}, {many}"
-        rest = "all of them can happen" if not own else f"{len(own)} of them as above"
+        rest = "all of them can happen" if not asked else f"{len(asked)} of them as above"
         yield _wrapped(f"{'✓' if not own else '•'} {one['system']}: {said}, {rest}.")
+
+
+_CALLED = {"way out": "state", "condition": "the condition of", "order": "transitions"}
+
+
+def _sentence(row: LintRow) -> tuple[str, str]:
+    """The mark of a row, and what is said of it."""
+    verb = "active" if row["kind"] == "state" else "taken"
+    match row["kind"], row["found"]:
+        case "way out", _:
+            return "•", " is never left once it is active."
+        case "condition", "never":
+            return "✗", " always holds where it is tested."
+        case "order", "happens":
+            return "•", " hold at the same time in some run: their order decides."
+        case (("condition" | "order"), _):
+            asked = "always holds" if row["kind"] == "condition" else "ever hold at the same time"
+            return "?", f": whether it {asked} was not decided."
+        case _, "never":
+            return "✗", f" is never {verb}."
+    return "?", f": whether it is ever {verb} was not decided."
 
 
 def _wrapped(text: str, indent: str = "") -> str:

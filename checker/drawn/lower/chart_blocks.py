@@ -38,8 +38,9 @@ class ChartBlockWriter(TriggerWriter):
             made.step(self._events(node, chart))
             statements = writer.written()
             program = StepProgram(
-                statements, tuple(writer.temporaries.values()), context.table.starting, dict(view.fired)
-            )
+                statements, tuple(writer.temporaries.values()), context.table.starting, dict(view.fired),
+                dict(view.tested),
+            )  # fmt: skip
             component = view.made(program)
             context.views[name] = view
             if chart.drawn.at_initialization:

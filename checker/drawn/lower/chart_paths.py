@@ -45,12 +45,20 @@ class PathWriter(WordWriter):
             self.writer.choose(
                 self._valid(one, scope),
                 partial(self._follow, one, path, scope, complete, done, in_function),
+                partial(self._note_tested, one, False),
             )
+
+    def _note_tested(self, one: TransitionNode, valid: bool) -> None:
+        if one.label.guard is not None:
+            marker = self.view.tested_marker(one, valid)
+            self.writer.assign(marker, TRUE)
+            self.writer.known.pop(marker.name, None)
 
     def _follow(
         self, one: TransitionNode, path: TransitionPath, scope: TextScope,
         complete: Callable[[TransitionPath], None], done: Var, in_function: bool,
     ) -> None:  # fmt: skip
+        self._note_tested(one, True)
         with self._told(one):
             self.run(one.label.condition_actions, scope)
             if in_function:

@@ -30,6 +30,7 @@ class ChartView:
         self._name_all(chart.root, ())
         self._chart = self.made(StepProgram((), starting=starting or {}))
         self.fired: dict[str, FiredTransition] = {}
+        self.tested: dict[str, tuple[str, bool]] = {}
         self.begun = self._chart.entered
 
     def _name_all(self, node: StateNode, path: Path) -> None:
@@ -68,6 +69,12 @@ class ChartView:
                 event or None,
                 self._place(path[0].drawn.line, path[0].drawn.ssid),
             )
+        return Var(name, boolean, 0, hidden=True)
+
+    def tested_marker(self, one: TransitionNode, valid: bool) -> Var:
+        """A variable that is assigned where a transition with a condition is tested, with this outcome."""
+        name = f"{self.name_of_chart}.{'valid' if valid else 'not valid'} {one.drawn.ssid}"
+        self.tested[name] = str(one), valid
         return Var(name, boolean, 0, hidden=True)
 
     @staticmethod

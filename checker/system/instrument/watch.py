@@ -7,7 +7,7 @@ read the same chart.
 """
 
 from collections import Counter
-from collections.abc import Collection, Container, Iterator, Sequence
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rovercheck.checker.system.instrument.entries import ChartTransitions, Segment, TransitionGroup
@@ -62,7 +62,7 @@ def _component(component: Component, wanted: _Wanted) -> Component:
         case ProgrammedChart():
             return _programmed(component, _Goals(component.name, wanted))
         case Chart():
-            return _Chart(component, _Goals(component.name, wanted)).watched()
+            return WatchedChart(component, _Goals(component.name, wanted)).watched()
 
 
 _SIDES = {GoalKind.BOUNDARIES: sides, GoalKind.CONDITIONS: deciding_sides}
@@ -128,29 +128,31 @@ def _programmed(chart: ProgrammedChart, goals: _Goals) -> Chart:
             known[drawn] = goals.goal(GoalKind.TRANSITIONS, str(len(known) + 1), text)
         raised[marker] = known[drawn]
 
-    def raising(statements: Program) -> Program:
-        out: list[Statement] = []
-        for one in statements:
-            if isinstance(one, If):
-                then, otherwise = (
-                    raising(tuple(a for a in part if isinstance(a, Assign | If)))
-                    for part in (one.then, one.otherwise)
-                )
-                one = If(one.condition, then, otherwise)
-            elif one.var.name in raised:
-                out += (a for a in raised[one.var.name] if isinstance(a, Assign))
-            out.append(one)
-        return tuple(out)
-
-    return chart.with_program(replace(chart.program, statements=raising(chart.program.statements)))
+    return chart.with_program(replace(chart.program, statements=raising(chart.program.statements, raised)))
 
 
-class _Chart:
+def raising(statements: Program, raised: Mapping[str, Sequence[Action]]) -> Program:
+    """The statements of an imported chart, with assignments before those of some markers."""
+    out: list[Statement] = []
+    for one in statements:
+        if isinstance(one, If):
+            then, otherwise = (
+                raising(tuple(a for a in part if isinstance(a, Assign | If)), raised)
+                for part in (one.then, one.otherwise)
+            )
+            one = If(one.condition, then, otherwise)
+        elif one.var.name in raised:
+            out += (a for a in raised[one.var.name] if isinstance(a, Assign))
+        out.append(one)
+    return tuple(out)
+
+
+class WatchedChart:
     """One chart being rewritten."""
 
-    def __init__(self, chart: Chart, goals: _Goals) -> None:
+    def __init__(self, chart: Chart, goals: "_Goals | None" = None) -> None:
         self._chart = chart
-        self._goals = goals
+        self._goals = goals or _Goals(chart.name, _Wanted(frozenset(), None, 1, []))
         self._transitions = ChartTransitions(chart)
         self._ends: list[Junction] = []
 
@@ -184,14 +186,20 @@ class _Chart:
 
     def _probes(self, segment: Segment) -> Iterator[Transition]:
         """What looks at the conditions of a guard just before it is tested."""
-        found = list(self._goals.sides(segment.drawn.guard, segment.text))
+        found = self._looked(segment)
         if found:
             end = self._dead_end(segment)
             event = segment.drawn.event
-            plain = tuple(If(side.condition, raised) for side, raised in found if not _counts(side.condition))
-            timed = [(side, raised) for side, raised in found if _counts(side.condition)]
+            plain = tuple(If(condition, raised) for condition, raised in found if not _counts(condition))
+            timed = [(condition, raised) for condition, raised in found if _counts(condition)]
             yield from [Transition(end, None, event, plain)] if plain else []
-            yield from (Transition(end, side.condition, event, raised) for side, raised in timed)
+            yield from (Transition(end, condition, event, raised) for condition, raised in timed)
+
+    def _looked(self, segment: Segment) -> list[tuple[Expr, tuple[Action, ...]]]:
+        """What is asked where a guard is tested, and what is done where it holds."""
+        return [
+            (side.condition, raised) for side, raised in self._goals.sides(segment.drawn.guard, segment.text)
+        ]
 
     def _dead_end(self, segment: Segment) -> str:
         """A junction whose only transition, never valid, goes where the segment goes: it adds no path."""
@@ -252,3 +260,6 @@ def _counts(condition: Expr) -> bool:
 
 def _is(memory: Var, number: int) -> Expr:
     return memory == number
+
+
+__all__ = ["WatchedChart", "raising", "watched"]

@@ -1,0 +1,116 @@
+"""Guards that decide nothing: those that always hold where they are tested, and those whose order decides."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from rovercheck.checker.system.instrument.entries import Segment
+from rovercheck.checker.system.instrument.watch import WatchedChart, raising
+from rovercheck.spec_model.lang.action import Action, Assign
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.domain import boolean
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
+from rovercheck.spec_model.lang.system import System
+
+
+@dataclass(frozen=True)
+class GuardGoal:
+    """Something about a guard that some run may show: its flag is true after such a step.
+
+    ``condition``: it does not hold where it is tested; ``tested`` is true after a step in which it holds.
+    ``order``: it holds, and so does that of a later transition which leads elsewhere.
+    """
+
+    part: str
+    kind: Literal["condition", "order"]
+    text: str
+    flag: Var
+    tested: Var | None = None
+
+
+def with_guards(system: System) -> tuple[System, tuple[GuardGoal, ...]]:
+    """The system, which behaves as before and raises the flags of these goals.
+
+    Of imported charts only conditions are asked for: the guards of a later transition may do something.
+    """
+    goals: list[GuardGoal] = []
+    components = tuple(_component(c, goals) for c in system.components)
+    flags = [flag for goal in goals for flag in (goal.flag, goal.tested) if flag is not None]
+    reset = Block("goals not reached", [Assign(flag, FALSE) for flag in flags])
+    return replace(system, components=(reset, *components)), tuple(goals)
+
+
+def _component(component: Component, goals: list[GuardGoal]) -> Component:
+    match component:
+        case Enabled(by=by, components=inside, name=name):
+            return Enabled(by, *(_component(c, goals) for c in inside), name=name)
+        case ProgrammedChart(program=program, name=name):
+            texts = dict.fromkeys(text for text, _ in program.tested.values())
+            made = {text: _condition(goals, name, text) for text in texts}
+            raised = {
+                marker: _raised(goal.tested if valid else goal.flag)
+                for marker, (text, valid) in program.tested.items()
+                for goal in (made[text],)
+            }
+            return component.with_program(replace(program, statements=raising(program.statements, raised)))
+        case Chart():
+            return _GuardedChart(component, goals).watched()
+        case _:
+            return component
+
+
+def _condition(goals: list[GuardGoal], part: str, text: str) -> GuardGoal:
+    name = f"{part}.condition.{_next(goals, part)}"
+    goals.append(GuardGoal(part, "condition", text, _flag(name, text), _flag(f"{name}.tested", text)))
+    return goals[-1]
+
+
+def _order(goals: list[GuardGoal], part: str, text: str) -> GuardGoal:
+    goals.append(GuardGoal(part, "order", text, _flag(f"{part}.order.{_next(goals, part)}", text)))
+    return goals[-1]
+
+
+def _next(goals: list[GuardGoal], part: str) -> int:
+    """The number of the next goal of a part, which it has in every system."""
+    return 1 + sum(goal.part == part for goal in goals)
+
+
+def _flag(name: str, text: str) -> Var:
+    return Var(f"goal {name}", boolean, 0, text, hidden=True)
+
+
+def _raised(flag: Var | None) -> tuple[Action, ...]:
+    return () if flag is None else (Assign(flag, TRUE),)
+
+
+class _GuardedChart(WatchedChart):
+    """A chart being rewritten for such goals."""
+
+    def __init__(self, chart: Chart, goals: list[GuardGoal]) -> None:
+        super().__init__(chart)
+        self._found = goals
+
+    def _looked(self, segment: Segment) -> list[tuple[Expr, tuple[Action, ...]]]:
+        guard, name = segment.drawn.guard, self._chart.name
+        if guard is None:
+            return []
+        goal = _condition(self._found, name, segment.text)
+        looked = [(~guard, _raised(goal.flag)), (guard, _raised(goal.tested))]
+        for later in self._rivals(segment):
+            assert later.drawn.guard is not None
+            both = _order(self._found, name, f"{segment.text} and {later.text}")
+            looked.append((guard & later.drawn.guard, _raised(both.flag)))
+        return looked
+
+    def _rivals(self, segment: Segment) -> Iterator[Segment]:
+        """Later transitions from the same place with a guard, for the same event, that do something else."""
+        beside: Sequence[Segment] = self._transitions.by_group[segment.group]
+        for later in beside[segment.order :]:
+            one, other = segment.drawn, later.drawn
+            alike = (one.target, one.do, one.then) == (other.target, other.do, other.then)
+            if other.guard is not None and one.event == other.event and not alike:
+                yield later
+
+
+__all__ = ["GuardGoal", "with_guards"]
