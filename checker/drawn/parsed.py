@@ -27,8 +27,10 @@ from rovercheck.checker.drawn.records import (
     DrawnEvent,
     DrawnState,
     DrawnTransition,
+    DrawnTruthTable,
 )
 from rovercheck.checker.drawn.refused import DrawingNote, label_of
+from rovercheck.checker.drawn.truth_tables import actions_of
 from rovercheck.spec_model.lang.errors import ModelError
 
 LANGUAGES: Mapping[str, ActionLanguage] = {
@@ -241,12 +243,30 @@ class _Parser:
             self._note(holder.path, f"the function {state.name}", error, state.ssid, state.line)
             return
         flow = None
+        data = {one.name: one for one in state.content.data}
         if not script:
             flow = StateNode(state.ssid, signature.name, f"{holder.path}/{signature.name}", holder)
             self._level(flow, state.content)
             self._states[state.ssid] = flow
-        data = {one.name: one for one in state.content.data}
+            if state.table is not None and not state.content.transitions:
+                try:
+                    data |= self._table(flow, state, state.table)
+                except GrammarError as error:
+                    self._note(holder.path, f"the truth table {state.name}", error, state.ssid, state.line)
+                    return
         holder.functions[signature.name] = FunctionNode(state, signature, holder, script, flow, data)
+
+    def _table(self, flow: StateNode, state: DrawnState, table: DrawnTruthTable) -> dict[str, DrawnData]:
+        """Make a flow chart of a truth table; the answer are the data that its conditions are kept in."""
+        made, actions = actions_of(table, self._language)
+        first = -1000 * state.ssid
+        kept = {n: DrawnData(first - at, n, "temporary", "boolean") for at, n in enumerate(made, 1)}
+        flow.data = {**flow.data, **kept}
+        drawn = DrawnTransition(state.ssid, None, None, state.name, 1, line=state.line)
+        end = JunctionNode(state.ssid, flow, history=False)
+        label = TransitionLabel(condition_actions=actions)
+        flow.defaults.append(TransitionNode(drawn, label, flow, target=end))
+        return kept
 
     def _note(self, where: str, what: str, error: GrammarError, ssid: int, line: int) -> None:
         text = f"{error}."

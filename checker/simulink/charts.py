@@ -24,6 +24,7 @@ from rovercheck.checker.drawn.records import (
     Point,
     Rectangle,
 )
+from rovercheck.checker.simulink.truth_tables import truth_table
 from rovercheck.checker.simulink.xml import XmlElement, numbers
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -151,6 +152,7 @@ class _ChartReader:
             subchart=one.property_of("superState") == "SUBCHART",
             function=function,
             script=script,
+            table=None if table is None else truth_table(table, self.place),
             block="" if simulink is None else simulink.property_of("blockName"),
             atomic=simulink is not None and _on(simulink, "isComponent"),
             action_subsystem=simulink is not None and _on(simulink, "isActionSubsystem"),

@@ -300,7 +300,7 @@ class _System:
         data = machine.chart.root.data
         for one, value in zip((d for d in data.values() if d.scope == "input"), values, strict=False):
             machine.memory.write(one.ssid, value)
-        if machine.chart.drawn.kind == "MATLAB function":
+        if machine.chart.drawn.kind in ("MATLAB function", "truth table"):
             machine.run_block()
         else:
             events = self._events(node, machine)

@@ -379,11 +379,11 @@ class ChartMachine:
     def run_block(self) -> None:
         """Execute the function of a block: its values are matched with the data by name."""
         [function] = self.chart.root.functions.values()
-        entry = function.script[0]
+        signature = function.script[0].signature if function.script else function.signature
         data = self.chart.root.data
-        names = (name for name in entry.signature.inputs if name is not None)
+        names = (name for name in signature.inputs if name is not None)
         given = [self.memory.values[data[name].ssid] for name in names if name in data]
-        for name, value in zip(entry.signature.outputs, self.call(function, given, 0), strict=False):
+        for name, value in zip(signature.outputs, self.call(function, given, 0), strict=False):
             if name in data:
                 self.memory.write(data[name].ssid, value)
 

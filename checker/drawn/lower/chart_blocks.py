@@ -28,10 +28,10 @@ class ChartBlockWriter(TriggerWriter):
         writer = ProgramWriter(name, context.most)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
-        if chart.drawn.kind == "MATLAB function":
+        if chart.drawn.kind in ("MATLAB function", "truth table"):
             made.run_block()
             component: Component = Block(
-                name, writer.written(), text=f"The MATLAB function {chart.drawn.path}.",
+                name, writer.written(), text=f"The {chart.drawn.kind} {chart.drawn.path}.",
                 temporaries=tuple(writer.temporaries.values()),
             )  # fmt: skip
         else:
@@ -57,7 +57,7 @@ class ChartBlockWriter(TriggerWriter):
                 if at not in writer.temporaries and at not in context.memories:  # else it changes later
                     context.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
-        if chart.drawn.kind == "MATLAB function" or not self._input_events(chart):
+        if isinstance(component, Block) or not self._input_events(chart):
             return [component]
         return [Enabled(self._any_event(node, chart), component), *self._edges(node)]
 
