@@ -102,6 +102,11 @@ class StateNode:
             yield from child.every()
 
 
+def output_events(root: StateNode) -> list[DrawnEvent]:
+    """The events of a chart to other blocks, in the order of their ports, which follow those of its data."""
+    return [one for one in root.events.values() if one.scope == "output"]
+
+
 @dataclass(eq=False)
 class FunctionNode:
     """A function of a chart: its script, or its flow chart, the transitions that begin it."""
@@ -274,5 +279,6 @@ class _Parser:
 
 
 __all__ = [
-    "FunctionNode", "JunctionNode", "ParsedChart", "StateNode", "TransitionNode", "parsed_chart",
+    "FunctionNode", "JunctionNode", "ParsedChart", "StateNode", "TransitionNode", "output_events",
+    "parsed_chart",
 ]  # fmt: skip

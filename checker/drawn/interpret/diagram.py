@@ -322,9 +322,10 @@ class _System:
 
 
 def _outputs_of(machine: ChartMachine) -> list[MatlabValue]:
-    """The values of a chart's outputs, in the order of their ports."""
+    """The values of a chart's outputs, in the order of their ports; those of events are the last."""
     data = machine.chart.root.data.values()
-    return [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
+    found = [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
+    return [*found, *machine.output_events.signals()]
 
 
 def _same_number(one: str, other: str) -> bool:

@@ -57,6 +57,7 @@ class ChartBlockWriter(TriggerWriter):
                 if at not in writer.temporaries and at not in context.memories:  # else it changes later
                     context.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
+        node.outputs += [signal for signal, _ in made.given.values()]
         if isinstance(component, Block) or not self._input_events(chart):
             return [component]
         return [Enabled(self._any_event(node, chart), component), *self._edges(node)]

@@ -10,17 +10,22 @@ from functools import partial
 from rovercheck.checker.drawn.grammar.actions import ActionStatement
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.lower.builtins import greatest, least
 from rovercheck.checker.drawn.lower.chart_paths import TransitionPath
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import TextScope, state_in, words
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
+from rovercheck.checker.drawn.lower.symbols import NotLowered, SymbolicScalar, folded, single_of
 from rovercheck.checker.drawn.lower.transitions import TransitionWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnData
+from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr
 from rovercheck.spec_model.lang.system import Statement
+
+MOST_WAITING = 255
+"""Times that an event to other blocks may wait, as each step gives one of them."""
 
 
 class ChartWriter(TransitionWriter):
@@ -86,6 +91,7 @@ class ChartWriter(TransitionWriter):
             by_node.setdefault(node.path, {})[what] = condition
         for node in self.chart.root.every():
             self.times.end(node, self._is_timed(node), by_node.get(node.path, {}))
+        self._give()
         for name, (before, _) in self._memories().items():
             if name in self._starts:
                 self.table.write(self.writer, before, self._starts[name].expr)
@@ -199,7 +205,10 @@ class ChartWriter(TransitionWriter):
                 pass
             case _:
                 return False
-        receiver = None if owner is None else state_in(scope.node, words(owner))
+        receiver = None if owner is None or name in self.given else state_in(scope.node, words(owner))
+        if name in self.given:
+            self._wait(name)
+            return True
         self._broadcast(name, receiver)
         if scope.left is not None and scope.alive is not None:
             self.writer.end(scope.left, folded(~scope.alive()))
@@ -208,10 +217,37 @@ class ChartWriter(TransitionWriter):
     def _is_event(self, name: str, scope: TextScope) -> bool:
         if scope.function and f"{scope.function}:{name}" in self.writer.locals:
             return False
-        found = [node.events[name] for node in self.chart.root.every() if name in node.events]
-        if any(one.scope == "output" for one in found):
-            raise NotLowered(f"{name} is an event to other blocks: give them a datum")
-        return bool(found)
+        return any(name in node.events for node in self.chart.root.every())
+
+    def _wait(self, name: str) -> None:
+        """An event to other blocks changes its signal at the end of this step, or of a later one."""
+        if self.chart.root.events[name].trigger == "function call":
+            raise NotLowered(
+                f"{name} is a function call of other blocks: make its trigger Either Edge, and theirs either"
+            )
+        _, waiting = self.given[name]
+        now = single_of(self._now(waiting)).expr
+        self.writer.choose(
+            folded(now == MOST_WAITING),
+            lambda: self.writer.fault(f"{name} may be sent while {MOST_WAITING} of it wait"),
+            lambda: self.table.write(
+                self.writer, waiting, folded(least(now + 1, Const(MOST_WAITING, Num())))
+            ),
+        )
+
+    def _give(self) -> None:
+        """Each event to other blocks that waits changes its signal, once in a step."""
+        for signal, waiting in self.given.values():
+            now, was = (single_of(self._now(one)).expr for one in (waiting, signal))
+
+            def change(
+                signal: SymbolicScalar = signal, waiting: SymbolicScalar = waiting,
+                now: Expr = now, was: Expr = was,
+            ) -> None:  # fmt: skip
+                self.table.write(self.writer, signal, folded(~was))
+                self.table.write(self.writer, waiting, folded(greatest(now - 1, Const(0, Num()))))
+
+            self.writer.choose(folded(now > 0), change)
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         def answer() -> None:
