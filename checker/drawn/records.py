@@ -20,6 +20,7 @@ DrawnScope = Literal[
     "input", "output", "local", "constant", "parameter", "temporary", "function input", "function output",
     "data store",
 ]  # fmt: skip
+DrawnActivity = Literal["self", "child", "leaf"]
 DrawnTrigger = Literal["", "function call", "rising", "falling", "either"]
 
 
@@ -43,7 +44,9 @@ class DrawnData:
     message: bool = False
     """Whether it is a message with a queue."""
     activity_of: int | None = None
-    """The state whose activity this output holds."""
+    """The state whose activity this output holds; 0 is the chart."""
+    activity: DrawnActivity = "self"
+    """Whether it is active, which child of it is, or which leaf state in it."""
     line: int = 0
 
 
@@ -315,7 +318,8 @@ def path_of(*names: str) -> str:
 
 
 __all__ = [
-    "ChartLanguage", "DrawnBlock", "DrawnBus", "DrawnChart", "DrawnChartKind", "DrawnContent", "DrawnData",
+    "ChartLanguage", "DrawnActivity", "DrawnBlock", "DrawnBus", "DrawnChart", "DrawnChartKind",
+    "DrawnContent", "DrawnData",
     "DrawnElement", "DrawnEnumeration", "DrawnEvent", "DrawnFunctionKind", "DrawnJunction", "DrawnLine",
     "DrawnModel", "DrawnParameter", "DrawnScope", "DrawnState", "DrawnStateKind", "DrawnSystem",
     "DrawnTransition", "DrawnTrigger", "DrawnTruthTable", "Point", "Rectangle", "names_of", "path_of",

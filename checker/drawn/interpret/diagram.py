@@ -167,8 +167,6 @@ class _System:
             chart = parsed_chart(self._runner.chart(block.chart))
             if chart.notes:
                 raise DrawnFault(str(chart.notes[0]))
-            if chart.drawn.activity_output:
-                raise DrawnFault(f"{block.path}: the output of the active state is not known here")
             runner = self._runner
             node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
         elif block.kind == "SubSystem" and block.system is not None:

@@ -11,6 +11,7 @@ from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
@@ -101,8 +102,7 @@ class ChartMachine:
                 self._first()
             self._events = []
         for one in self._activities:
-            assert one.activity_of is not None
-            self.memory.write(one.ssid, logical(self.chart.states.get(one.activity_of) in self.active))
+            self.memory.write(one.ssid, activity(one, self.chart, self.active, self.memory.types))
         self.output_events.end_step()
         self.clock.end(self.active, self._holds)
 

@@ -6,7 +6,7 @@ from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic, filled, folded, leaves, size_of
+from rovercheck.checker.drawn.lower.symbols import Symbolic, filled, folded, leaves, size_of
 from rovercheck.checker.drawn.lower.triggers import TriggerWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
@@ -22,8 +22,6 @@ class ChartBlockWriter(TriggerWriter):
     def _chart(self, node: BlockNode) -> list[Component]:
         context, chart = self.context, self.context.chart(node.block.chart)
         name = context.names.of_chart(chart.drawn)
-        if chart.drawn.activity_output:
-            raise NotLowered("the output of the active child: give it a datum that entry actions set")
         view = ChartView(chart, name, context.file, context.table.starting)
         writer = ProgramWriter(name, context.most)
         made = self._writer(chart, view, writer)

@@ -7,6 +7,7 @@ leaving and entering, events, early return.
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+from rovercheck.checker.drawn.activity import NONE, activity_members
 from rovercheck.checker.drawn.grammar.actions import ActionStatement
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
@@ -15,7 +16,7 @@ from rovercheck.checker.drawn.lower.chart_paths import TransitionPath
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import TextScope, state_in, words
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered, SymbolicScalar, folded, single_of
+from rovercheck.checker.drawn.lower.symbols import NotLowered, SymbolicScalar, chosen, folded, single_of
 from rovercheck.checker.drawn.lower.transitions import TransitionWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
@@ -83,9 +84,8 @@ class ChartWriter(TransitionWriter):
 
     def _end_step(self) -> None:
         for one in self.chart.root.data.values():
-            if one.activity_of is not None and one.activity_of in self.chart.states:
-                active = self.active(self.chart.states[one.activity_of])
-                self.table.write(self.writer, single_of(self.cells[one.ssid]), active)
+            if one.activity_of is not None:
+                self.table.write(self.writer, single_of(self.cells[one.ssid]), self._activity(one))
         by_node: dict[str, dict[str, Callable[[], Expr]]] = {}
         for what, (node, condition) in self._conditions.items():
             by_node.setdefault(node.path, {})[what] = condition
@@ -97,6 +97,26 @@ class ChartWriter(TransitionWriter):
                 self.table.write(self.writer, before, self._starts[name].expr)
         if self._starts:
             self.writer.assign(self._stepped, TRUE)
+
+    def _activity(self, one: DrawnData) -> Expr:
+        """What an output tells of the active states."""
+        if one.activity == "self":
+            state = self.chart.states.get(one.activity_of or 0)
+            return (
+                self.active(state) if state is not None else self._has_begun if not one.activity_of else FALSE
+            )
+        owner = one.type.partition(":")[2].strip()
+
+        def member(name: str) -> Expr:
+            found = self.table.kinds.member(name, owner)
+            if found is None:
+                raise NotLowered(f"{one.name}: {owner} has no member {name}, as a state is named")
+            return found.expr
+
+        made = member(NONE)
+        for ssid, name in activity_members(self.chart.drawn, one).items():
+            made = chosen(self.active(self.chart.states[ssid]), member(name), made)
+        return made
 
     def _once(self, event: str) -> None:
         self._stack.append((0, event))
