@@ -171,6 +171,7 @@ class _Parser:
                 node.history = junction
         for state in content.states:
             if state.kind == "box":
+                self._refuse_shared(node, state)
                 self._level(node, state.content)
             elif state.kind == "function":
                 self._function(node, state)
@@ -180,6 +181,16 @@ class _Parser:
             label = self._label(node, transition)
             if label is not None:
                 self._transitions.append(TransitionNode(transition, label, node))
+
+    def _refuse_shared(self, node: StateNode, box: DrawnState) -> None:
+        """A box has names of its own in Stateflow; here they are those of the level around it."""
+        names = {one.name for one in (*box.content.data, *box.content.events)}
+        for name in sorted(names & (node.data.keys() | node.events.keys())):
+            text = f"{name} is also a name around it, or in another box: give each its own."
+            what = f"the box {box.name}"
+            self._notes.append(
+                DrawingNote("refused", node.path, what, text, self._chart.part, box.ssid, box.line)
+            )
 
     def _state(self, parent: StateNode, state: DrawnState) -> None:
         path = f"{parent.path}/{state.name}"

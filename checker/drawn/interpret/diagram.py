@@ -27,6 +27,8 @@ from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
 
 Number = int | float
+FUNCTIONS = ("MATLAB function", "truth table")
+"""Charts that are one function each, without states."""
 
 
 class ModelRunner:
@@ -211,7 +213,7 @@ class _System:
     def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
         """Charts that are so drawn are entered before the first step, with inputs at rest."""
         for node in self._nodes:
-            if node.chart is not None and node.chart.chart.drawn.kind == "chart":
+            if node.chart is not None and node.chart.chart.drawn.kind not in FUNCTIONS:
                 if node.chart.chart.drawn.at_initialization:
                     self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
@@ -298,7 +300,7 @@ class _System:
         data = machine.chart.root.data
         for one, value in zip((d for d in data.values() if d.scope == "input"), values, strict=False):
             machine.memory.write(one.ssid, value)
-        if machine.chart.drawn.kind in ("MATLAB function", "truth table"):
+        if machine.chart.drawn.kind in FUNCTIONS:
             machine.run_block()
         else:
             events = self._events(node, machine)
