@@ -184,7 +184,7 @@ class _Parser:
 
     def _refuse_shared(self, node: StateNode, box: DrawnState) -> None:
         """A box has names of its own in Stateflow; here they are those of the level around it."""
-        names = {one.name for one in (*box.content.data, *box.content.events)}
+        names = {one.name for one in box.content.data} | {one.name for one in box.content.events}
         for name in sorted(names & (node.data.keys() | node.events.keys())):
             text = f"{name} is also a name around it, or in another box: give each its own."
             what = f"the box {box.name}"
