@@ -27,8 +27,10 @@ from rovercheck.checker.drawn.records import (
     DrawnEvent,
     DrawnState,
     DrawnTransition,
+    DrawnTruthTable,
 )
 from rovercheck.checker.drawn.refused import DrawingNote, label_of
+from rovercheck.checker.drawn.truth_tables import actions_of
 from rovercheck.spec_model.lang.errors import ModelError
 
 LANGUAGES: Mapping[str, ActionLanguage] = {
@@ -100,6 +102,11 @@ class StateNode:
             yield from child.every()
 
 
+def output_events(root: StateNode) -> list[DrawnEvent]:
+    """The events of a chart to other blocks, in the order of their ports, which follow those of its data."""
+    return [one for one in root.events.values() if one.scope == "output"]
+
+
 @dataclass(eq=False)
 class FunctionNode:
     """A function of a chart: its script, or its flow chart, the transitions that begin it."""
@@ -164,6 +171,7 @@ class _Parser:
                 node.history = junction
         for state in content.states:
             if state.kind == "box":
+                self._refuse_shared(node, state)
                 self._level(node, state.content)
             elif state.kind == "function":
                 self._function(node, state)
@@ -173,6 +181,16 @@ class _Parser:
             label = self._label(node, transition)
             if label is not None:
                 self._transitions.append(TransitionNode(transition, label, node))
+
+    def _refuse_shared(self, node: StateNode, box: DrawnState) -> None:
+        """A box has names of its own in Stateflow; here they are those of the level around it."""
+        names = {one.name for one in box.content.data} | {one.name for one in box.content.events}
+        for name in sorted(names & (node.data.keys() | node.events.keys())):
+            text = f"{name} is also a name around it, or in another box: give each its own."
+            what = f"the box {box.name}"
+            self._notes.append(
+                DrawingNote("refused", node.path, what, text, self._chart.part, box.ssid, box.line)
+            )
 
     def _state(self, parent: StateNode, state: DrawnState) -> None:
         path = f"{parent.path}/{state.name}"
@@ -241,12 +259,30 @@ class _Parser:
             self._note(holder.path, f"the function {state.name}", error, state.ssid, state.line)
             return
         flow = None
+        data = {one.name: one for one in state.content.data}
         if not script:
             flow = StateNode(state.ssid, signature.name, f"{holder.path}/{signature.name}", holder)
             self._level(flow, state.content)
             self._states[state.ssid] = flow
-        data = {one.name: one for one in state.content.data}
+            if state.table is not None and not state.content.transitions:
+                try:
+                    data |= self._table(flow, state, state.table)
+                except GrammarError as error:
+                    self._note(holder.path, f"the truth table {state.name}", error, state.ssid, state.line)
+                    return
         holder.functions[signature.name] = FunctionNode(state, signature, holder, script, flow, data)
+
+    def _table(self, flow: StateNode, state: DrawnState, table: DrawnTruthTable) -> dict[str, DrawnData]:
+        """Make a flow chart of a truth table; the answer are the data that its conditions are kept in."""
+        made, actions = actions_of(table, self._language)
+        first = -1000 * state.ssid
+        kept = {n: DrawnData(first - at, n, "temporary", "boolean") for at, n in enumerate(made, 1)}
+        flow.data = {**flow.data, **kept}
+        drawn = DrawnTransition(state.ssid, None, None, state.name, 1, line=state.line)
+        end = JunctionNode(state.ssid, flow, history=False)
+        label = TransitionLabel(condition_actions=actions)
+        flow.defaults.append(TransitionNode(drawn, label, flow, target=end))
+        return kept
 
     def _note(self, where: str, what: str, error: GrammarError, ssid: int, line: int) -> None:
         text = f"{error}."
@@ -254,5 +290,6 @@ class _Parser:
 
 
 __all__ = [
-    "FunctionNode", "JunctionNode", "ParsedChart", "StateNode", "TransitionNode", "parsed_chart",
+    "FunctionNode", "JunctionNode", "ParsedChart", "StateNode", "TransitionNode", "output_events",
+    "parsed_chart",
 ]  # fmt: skip

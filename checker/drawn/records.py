@@ -20,6 +20,7 @@ DrawnScope = Literal[
     "input", "output", "local", "constant", "parameter", "temporary", "function input", "function output",
     "data store",
 ]  # fmt: skip
+DrawnActivity = Literal["self", "child", "leaf"]
 DrawnTrigger = Literal["", "function call", "rising", "falling", "either"]
 
 
@@ -43,7 +44,9 @@ class DrawnData:
     message: bool = False
     """Whether it is a message with a queue."""
     activity_of: int | None = None
-    """The state whose activity this output holds."""
+    """The state whose activity this output holds; 0 is the chart."""
+    activity: DrawnActivity = "self"
+    """Whether it is active, which child of it is, or which leaf state in it."""
     line: int = 0
 
 
@@ -112,6 +115,19 @@ class DrawnContent:
 
 
 @dataclass(frozen=True)
+class DrawnTruthTable:
+    """A truth table, as written: a row for each of ``conditions``, a column for each of ``decisions``.
+
+    A decision has ``T``, ``F`` or ``-`` for each condition; of ``chosen`` each names the actions of one.
+    """
+
+    conditions: tuple[str, ...]
+    decisions: tuple[tuple[str, ...], ...]
+    chosen: tuple[str, ...]
+    actions: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class DrawnState:
     """A state, a function, a box or a note; ``parallel``: its children are regions.
 
@@ -129,6 +145,8 @@ class DrawnState:
     function: DrawnFunctionKind = ""
     script: str = ""
     """Of a MATLAB function its text; of a truth table the one that was made of it."""
+    table: DrawnTruthTable | None = None
+    """Of a truth table its grid, if the file has it."""
     block: str = ""
     """Of a Simulink function, or an atomic subchart, its block in the block of the chart."""
     atomic: bool = False
@@ -300,8 +318,9 @@ def path_of(*names: str) -> str:
 
 
 __all__ = [
-    "ChartLanguage", "DrawnBlock", "DrawnBus", "DrawnChart", "DrawnChartKind", "DrawnContent", "DrawnData",
+    "ChartLanguage", "DrawnActivity", "DrawnBlock", "DrawnBus", "DrawnChart", "DrawnChartKind",
+    "DrawnContent", "DrawnData",
     "DrawnElement", "DrawnEnumeration", "DrawnEvent", "DrawnFunctionKind", "DrawnJunction", "DrawnLine",
     "DrawnModel", "DrawnParameter", "DrawnScope", "DrawnState", "DrawnStateKind", "DrawnSystem",
-    "DrawnTransition", "DrawnTrigger", "Point", "Rectangle", "names_of", "path_of",
+    "DrawnTransition", "DrawnTrigger", "DrawnTruthTable", "Point", "Rectangle", "names_of", "path_of",
 ]  # fmt: skip

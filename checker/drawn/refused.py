@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from rovercheck.checker.drawn.activity import tells_of_regions
 from rovercheck.checker.drawn.records import (
     DrawnChart,
     DrawnContent,
@@ -77,6 +78,15 @@ def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
         yield _note(chart, "the chart", "an update in continuous time. Make it discrete, or inherited")
     if chart.machine == "Moore":
         yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
+    named = [one.name for one in chart.content.data if one.activity_of == 0]
+    if chart.activity_output and not named:
+        text = f"of its active state, {chart.activity_output}, which is no datum of it. Give it one"
+        yield _note(chart, "the chart", f"an output {text}")
+    for one in chart.content.data:
+        if one.activity_of is not None and tells_of_regions(chart, one):
+            told = "it tells of regions, of which several are active. Give each region an output of its own."
+            what = f"the datum {one.name}"
+            yield DrawingNote("refused", chart.path, what, told, chart.part, one.ssid, one.line)
     levels = list(chart.content.every_level())
     ends = {state.ssid for level in levels for state in level.states}
     ends |= {junction.ssid for level in levels for junction in level.junctions}

@@ -34,7 +34,10 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
                 local |= {one.signature.name for one in function.script}
                 local_names = {name for name in local if name is not None}
                 yield from finder.notes(node, what, drawn.ssid, drawn.line, script.body, local=local_names)
-    if chart.drawn.kind == "MATLAB function":
+            if function.flow is not None and drawn.table is not None:
+                labels = (one.label for one in function.flow.defaults)
+                yield from finder.notes(function.flow, what, drawn.ssid, drawn.line, *labels)
+    if chart.drawn.kind in ("MATLAB function", "truth table"):
         return  # what is drawn there calls its function
     for one in chart.transitions:
         what, drawn_ = f"the transition `{label_of(one.drawn)}`", one.drawn

@@ -4,11 +4,13 @@ by default.
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import chain
 from typing import Literal, TypeVar, cast
 
 from rovercheck.checker.drawn.records import (
     ChartLanguage,
+    DrawnActivity,
     DrawnChart,
     DrawnChartKind,
     DrawnContent,
@@ -24,6 +26,7 @@ from rovercheck.checker.drawn.records import (
     Point,
     Rectangle,
 )
+from rovercheck.checker.simulink.truth_tables import truth_table
 from rovercheck.checker.simulink.xml import XmlElement, numbers
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -56,6 +59,10 @@ MACHINES: Mapping[str, Literal["classic", "Mealy", "Moore"]] = {
     "": "classic", "CLASSIC_MACHINE": "classic", "MEALY_MACHINE": "Mealy", "MOORE_MACHINE": "Moore"
 }  # fmt: skip
 
+ACTIVITIES: Mapping[str, DrawnActivity] = {
+    "": "child", "CHILD_ACTIVITY": "child", "SELF_ACTIVITY": "self", "LEAF_STATE_ACTIVITY": "leaf"
+}  # fmt: skip
+
 _NAME = re.compile(r"\s*([^\n/]*)")
 _AUTOMATIC = 2**32 - 1
 """The order of pieces of a wire that have none."""
@@ -75,11 +82,12 @@ class _ChartReader:
         kind = self._word(one, "type", CHARTS)
         language: ChartLanguage = self._word(one, "actionLanguage", LANGUAGES)
         activity = one.child("activeStateOutput")
+        content = self._unique(self._content(one, None))
         return DrawnChart(
             path=self.path,
             kind=kind,
             language="MATLAB" if kind == "MATLAB function" else language,
-            content=self._unique(self._content(one, None)),
+            content=self._with_activities(content, one),
             part=self.part,
             id=self._whole(one, one.attributes.get("id", "0"), "the id"),
             parallel=one.property_of("decomposition") == "SET_CHART",
@@ -151,6 +159,7 @@ class _ChartReader:
             subchart=one.property_of("superState") == "SUBCHART",
             function=function,
             script=script,
+            table=None if table is None else truth_table(table, self.place),
             block="" if simulink is None else simulink.property_of("blockName"),
             atomic=simulink is not None and _on(simulink, "isComponent"),
             action_subsystem=simulink is not None and _on(simulink, "isActionSubsystem"),
@@ -195,6 +204,31 @@ class _ChartReader:
         scope, trigger = self._word(one, "scope", scopes), self._word(one, "trigger", TRIGGERS)
         name = one.property_of("name") or one.attributes.get("name", "")
         return DrawnEvent(self._ssid(one), name, scope, trigger if scope != "local" else "", one.line)
+
+    # --- activities ----------------------------------------------------------------------------------------
+
+    def _with_activities(self, content: DrawnContent, chart: XmlElement) -> DrawnContent:
+        """The content with what its outputs of active states tell: of themselves, children or leaves."""
+        holders = {self._ssid(one): one for one in chart.every() if one.tag == "state"}
+        own = chart.child("activeStateOutput")
+        data = []
+        for one in content.data:
+            at, output = one.activity_of, own
+            if at in holders:
+                output = holders[at].child("activeStateOutput")
+            elif own is not None and (at is not None or one.name == own.property_of("customName")):
+                at = 0
+            if at is None or one.scope != "output":
+                data.append(one)
+                continue
+            mode: DrawnActivity = "self" if at and (output is None or one.type == "boolean") else "child"
+            if output is not None and (at == 0 or one.type != "boolean"):
+                mode = self._word(output, "activityMode", ACTIVITIES)
+            type_ = one.type
+            if output is not None and type_.startswith("Inherit") and mode != "self":
+                type_ = f"Enum: {output.property_of('enumTypeName')}"
+            data.append(replace(one, activity_of=at, activity=mode, type=type_))
+        return replace(content, data=tuple(data))
 
     # --- values --------------------------------------------------------------------------------------------
 

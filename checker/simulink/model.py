@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnModel
+from rovercheck.checker.drawn.activity import NONE, activity_members
+from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnEnumeration, DrawnModel
 from rovercheck.checker.simulink.blocks import DiagramReader
 from rovercheck.checker.simulink.charts import chart_of, charts_in, data_of
 from rovercheck.checker.simulink.dictionary import Definitions, files_beside, is_file
@@ -39,6 +40,8 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
     types += (one.type for chart in charts for level in chart.content.every_level() for one in level.data)
     types += (block.parameters.get("OutDataTypeStr", "") for block in system.every_block())
     definitions = _definitions(path, model, types, beside)
+    for made in _made_of_activities(charts):
+        definitions.enumerations.setdefault(made.name, made)
     solver = _solver(package, model)
     return DrawnModel(
         name=path.stem,
@@ -90,6 +93,16 @@ def _charts(
 def _instances(root: XmlElement) -> Mapping[str, str]:
     """Of the id of a chart the path of its block."""
     return {one.property_of("chart"): one.property_of("name") for one in root.all("instance")}
+
+
+def _made_of_activities(charts: Iterable[DrawnChart]) -> Iterator[DrawnEnumeration]:
+    """The enumerations that Stateflow makes of the names of states: 0 is none, the others by name."""
+    for chart in charts:
+        for one in chart.content.data:
+            if one.activity_of is not None and one.activity != "self" and one.type.startswith(ENUM):
+                names = [NONE, *sorted(activity_members(chart, one).values())]
+                members = {name: number for number, name in enumerate(names)}
+                yield DrawnEnumeration(one.type.removeprefix(ENUM).strip(), members, NONE, "", chart.path)
 
 
 # --- beside the model --------------------------------------------------------------------------------------

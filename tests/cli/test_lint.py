@@ -19,7 +19,10 @@ lamp = Chart(
     "Lamp",
     [
         State("Off", transitions=[to("On", when=lit), to("Burnt", when=lit)]),
-        State("On", transitions=[to("Worn", when=~lit & broken), to("Off", when=~lit), to("On", when=broken)]),
+        State(
+            "On",
+            transitions=[to("Worn", when=~lit & broken), to("Off", when=~lit), to("On", when=broken)],
+        ),
         State("Worn", transitions=[to("Gone", when=lit | ~lit)]),
         State("Burnt"),
         State("Gone"),

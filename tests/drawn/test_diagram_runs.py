@@ -221,10 +221,23 @@ def test_an_output_may_hold_whether_a_state_is_active(tmp_path: Path) -> None:
     assert [value == TRUE for value in found] == [False, True, True, False]
 
 
-def test_an_event_to_other_blocks_is_refused(tmp_path: Path) -> None:
+def test_a_function_call_of_other_blocks_is_refused(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
-        c.event("OUT", "OUTPUT_EVENT", "EITHER_EDGE_EVENT")
+        c.event("OUT", "OUTPUT_EVENT", "FUNCTION_CALL_EVENT")
         c.transition(None, c.state("A\nen: OUT;"))
 
-    with pytest.raises(DrawnFault, match="OUT is an event to other blocks"):
+    with pytest.raises(DrawnFault, match="OUT is a function call of other blocks"):
         logged(running(tmp_path, draw), [0])
+
+
+def test_a_name_in_a_box_that_there_is_around_it_is_refused(tmp_path: Path) -> None:
+    """What had the name around the box read and wrote the datum in it."""
+
+    def draw(c: WrittenChart) -> None:
+        c.data("n", "local", "uint8", 3)
+        box = c.state("Box", box=True)
+        c.data("n", "local", "uint8", 7, holder=box)
+        c.transition(None, c.state("A\nen: log = double(n);"))
+
+    with pytest.raises(DrawnFault, match=r"the box Box .*: n is also a name around it, or in another box"):
+        running(tmp_path, draw)

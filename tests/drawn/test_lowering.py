@@ -244,3 +244,20 @@ def test_a_disabled_subsystem_holds_what_passes_through_it(tmp_path: Path) -> No
     rows: list[Row] = [{"u": n, "v": v} for n, v in enumerate((0, 1, 1, 0, 1), 1)]
     assert both(runner, rows, "y1") == [0, 1, 2, 2, 4]
     assert both(runner, rows, "y2") == [3, 3, 1, 1, 2]
+
+
+def test_a_state_transition_table_is_entered_at_initialization(tmp_path: Path) -> None:
+    """The interpreter entered only charts of states before the first step."""
+    model = WrittenModel("one", step="0.1")
+    port, end = model.root.inport("u", 1, OutDataTypeStr="int8"), model.root.outport("y", 1)
+    block, chart = model.root.chart("T", "State Transition Table")
+    chart.more = {"executeAtInitialization": 1}
+    chart.data("u", "input", "int8")
+    chart.data("log", "output", "uint8")
+    a, b = chart.state("A\nen: log = uint8(1);\ndu: log = uint8(2);"), chart.state("B\nen: log = uint8(3);")
+    chart.transition(None, a)
+    chart.transition(a, b, "[u == 1]")
+    model.root.line(port, block)
+    model.root.line(block, end)
+    runner = ModelRunner(read_model(model.save(tmp_path / "one.slx")))
+    assert both(runner, [0, 1, 0], "y") == [2, 3, 3]

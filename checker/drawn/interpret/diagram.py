@@ -27,6 +27,8 @@ from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
 
 Number = int | float
+FUNCTIONS = ("MATLAB function", "truth table")
+"""Charts that are one function each, without states."""
 
 
 class ModelRunner:
@@ -167,8 +169,6 @@ class _System:
             chart = parsed_chart(self._runner.chart(block.chart))
             if chart.notes:
                 raise DrawnFault(str(chart.notes[0]))
-            if chart.drawn.activity_output:
-                raise DrawnFault(f"{block.path}: the output of the active state is not known here")
             runner = self._runner
             node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
         elif block.kind == "SubSystem" and block.system is not None:
@@ -213,7 +213,7 @@ class _System:
     def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
         """Charts that are so drawn are entered before the first step, with inputs at rest."""
         for node in self._nodes:
-            if node.chart is not None and node.chart.chart.drawn.kind == "chart":
+            if node.chart is not None and node.chart.chart.drawn.kind not in FUNCTIONS:
                 if node.chart.chart.drawn.at_initialization:
                     self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
@@ -300,7 +300,7 @@ class _System:
         data = machine.chart.root.data
         for one, value in zip((d for d in data.values() if d.scope == "input"), values, strict=False):
             machine.memory.write(one.ssid, value)
-        if machine.chart.drawn.kind == "MATLAB function":
+        if machine.chart.drawn.kind in FUNCTIONS:
             machine.run_block()
         else:
             events = self._events(node, machine)
@@ -322,9 +322,10 @@ class _System:
 
 
 def _outputs_of(machine: ChartMachine) -> list[MatlabValue]:
-    """The values of a chart's outputs, in the order of their ports."""
+    """The values of a chart's outputs, in the order of their ports; those of events are the last."""
     data = machine.chart.root.data.values()
-    return [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
+    found = [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
+    return [*found, *machine.output_events.signals()]
 
 
 def _same_number(one: str, other: str) -> bool:

@@ -11,10 +11,12 @@ from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
+from rovercheck.checker.drawn.interpret.output_events import OutputEvents
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import MatlabValue, NumberRules, Scalar, logical
 from rovercheck.checker.drawn.parsed import (
@@ -57,6 +59,7 @@ class ChartMachine:
         self._tried = 0
         self.begun = False
         self._activities = [d for d in chart.root.data.values() if d.activity_of is not None]
+        self.output_events = OutputEvents(chart)
         self.fired: list[TransitionNode] = []
         """The transitions taken in this step, those of flow charts too."""
         self.memory.declare_all(chart, named or {}, self._initial)
@@ -99,8 +102,8 @@ class ChartMachine:
                 self._first()
             self._events = []
         for one in self._activities:
-            assert one.activity_of is not None
-            self.memory.write(one.ssid, logical(self.chart.states.get(one.activity_of) in self.active))
+            self.memory.write(one.ssid, activity(one, self.chart, self.active, self.memory.types))
+        self.output_events.end_step()
         self.clock.end(self.active, self._holds)
 
     def _first(self) -> None:
@@ -326,18 +329,16 @@ class ChartMachine:
                 pass
             case _:
                 return False
-        self._broadcast(name, None if owner is None else state_of(owner, frame.node))
+        if name in self.output_events:
+            self.output_events.send(name)
+        else:
+            self._broadcast(name, None if owner is None else state_of(owner, frame.node))
         return True
 
     def _is_event(self, name: str, frame: CallFrame) -> bool:
         if name in (frame.local or {}):
             return False
-        found = next((node.events[name] for node in self.chart.root.every() if name in node.events), None)
-        if found is not None and found.scope == "output":
-            raise DrawnFault(
-                f"{name} is an event to other blocks, which is not known here: give them a datum"
-            )
-        return found is not None
+        return any(name in node.events for node in self.chart.root.every())
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         if len(self._events) >= MOST_NESTED:
@@ -379,11 +380,11 @@ class ChartMachine:
     def run_block(self) -> None:
         """Execute the function of a block: its values are matched with the data by name."""
         [function] = self.chart.root.functions.values()
-        entry = function.script[0]
+        signature = function.script[0].signature if function.script else function.signature
         data = self.chart.root.data
-        names = (name for name in entry.signature.inputs if name is not None)
+        names = (name for name in signature.inputs if name is not None)
         given = [self.memory.values[data[name].ssid] for name in names if name in data]
-        for name, value in zip(entry.signature.outputs, self.call(function, given, 0), strict=False):
+        for name, value in zip(signature.outputs, self.call(function, given, 0), strict=False):
             if name in data:
                 self.memory.write(data[name].ssid, value)
 

@@ -6,7 +6,7 @@ from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic, filled, folded, leaves, size_of
+from rovercheck.checker.drawn.lower.symbols import Symbolic, filled, folded, leaves, size_of
 from rovercheck.checker.drawn.lower.triggers import TriggerWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
@@ -22,16 +22,14 @@ class ChartBlockWriter(TriggerWriter):
     def _chart(self, node: BlockNode) -> list[Component]:
         context, chart = self.context, self.context.chart(node.block.chart)
         name = context.names.of_chart(chart.drawn)
-        if chart.drawn.activity_output:
-            raise NotLowered("the output of the active child: give it a datum that entry actions set")
         view = ChartView(chart, name, context.file, context.table.starting)
         writer = ProgramWriter(name, context.most)
         made = self._writer(chart, view, writer)
         self._feed(made, chart, self._values(node))
-        if chart.drawn.kind == "MATLAB function":
+        if chart.drawn.kind in ("MATLAB function", "truth table"):
             made.run_block()
             component: Component = Block(
-                name, writer.written(), text=f"The MATLAB function {chart.drawn.path}.",
+                name, writer.written(), text=f"The {chart.drawn.kind} {chart.drawn.path}.",
                 temporaries=tuple(writer.temporaries.values()),
             )  # fmt: skip
         else:
@@ -58,7 +56,8 @@ class ChartBlockWriter(TriggerWriter):
                 if at not in writer.temporaries and at not in context.memories:  # else it changes later
                     context.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
-        if chart.drawn.kind == "MATLAB function" or not self._input_events(chart):
+        node.outputs += [signal for signal, _ in made.given.values()]
+        if isinstance(component, Block) or not self._input_events(chart):
             return [component]
         return [Enabled(self._any_event(node, chart), component), *self._edges(node)]
 

@@ -13,15 +13,18 @@ from rovercheck.checker.drawn.lower.symbols import (
     UNTYPED,
     NotLowered,
     Symbolic,
+    SymbolicScalar,
     leaves,
     matrix,
+    number,
     single_of,
     size_of,
+    truth,
 )
 from rovercheck.checker.drawn.lower.view import ChartView
-from rovercheck.checker.drawn.parsed import FunctionNode, ParsedChart, StateNode
+from rovercheck.checker.drawn.parsed import FunctionNode, ParsedChart, StateNode, output_events
 from rovercheck.checker.drawn.records import DrawnData
-from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.expr import FALSE, Var
 
 
 class ChartDataWriter(StatementWriter):
@@ -39,6 +42,8 @@ class ChartDataWriter(StatementWriter):
         self.chart, self.view = chart, view
         self.rules = IntegerRules(chart.language.name != "MATLAB", chart.drawn.saturates)
         self._values_named, self._name_of = named, data_names
+        self.given: dict[str, tuple[SymbolicScalar, SymbolicScalar]] = {}
+        """Of each event to other blocks its signal, and how many of it wait."""
 
     def _declare_all(self) -> None:
         for node in self.chart.root.every():
@@ -48,6 +53,12 @@ class ChartDataWriter(StatementWriter):
             for function in node.functions.values():
                 for one in function.data.values():
                     self.cells[one.ssid] = self._declared(one, node, function)
+
+        for event in output_events(self.chart.root):
+            name = f"{self.writer.name}.{event.name}"
+            signal = self.table.declared(name, truth(FALSE), doc=f"the event {event.name}")
+            waiting = self.table.declared(f"{name}.waiting", number("uint8", 0), hidden=True)
+            self.given[event.name] = single_of(signal), single_of(waiting)
 
     def _declared(self, one: DrawnData, node: StateNode, function: FunctionNode | None = None) -> Symbolic:
         name = (

@@ -23,7 +23,7 @@ class FunctionWriter(PathWriter):
             own = replace(scope, node=function.holder, script=script, keeper=keeper, kept=set())
             return self.script(function.script[0], arguments, own)
         if function.flow is None or function.drawn.function == "Simulink":
-            raise NotLowered(f"{name} is a Simulink function, or a truth table without its script")
+            raise NotLowered(f"{name} is a Simulink function: write it as a MATLAB function")
         flow, signature = function.flow, function.signature
         for datum_name, one in flow.data.items():
             self._reset(one, f"{keeper}.{datum_name}")
@@ -40,10 +40,11 @@ class FunctionWriter(PathWriter):
         [function] = self.chart.root.functions.values()
         data = self.chart.root.data
         scope = self._scope(self.chart.root)
-        names = (name for name in function.script[0].signature.inputs if name is not None)
+        signature = function.script[0].signature if function.script else function.signature
+        names = (name for name in signature.inputs if name is not None)
         given = [self._now(self.cells[data[name].ssid]) for name in names if name in data]
         found = self.call(function, given, scope)
-        for name, value in zip(function.script[0].signature.outputs, found, strict=False):
+        for name, value in zip(signature.outputs, found, strict=False):
             if name in data:
                 self._all(self.datum(data[name], value), value, scope)
 

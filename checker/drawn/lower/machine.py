@@ -7,20 +7,26 @@ leaving and entering, events, early return.
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+from rovercheck.checker.drawn.activity import NONE, activity_members
 from rovercheck.checker.drawn.grammar.actions import ActionStatement
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.lower.builtins import greatest, least
 from rovercheck.checker.drawn.lower.chart_paths import TransitionPath
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import TextScope, state_in, words
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
+from rovercheck.checker.drawn.lower.symbols import NotLowered, SymbolicScalar, chosen, folded, single_of
 from rovercheck.checker.drawn.lower.transitions import TransitionWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnData
+from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr
 from rovercheck.spec_model.lang.system import Statement
+
+MOST_WAITING = 255
+"""Times that an event to other blocks may wait, as each step gives one of them."""
 
 
 class ChartWriter(TransitionWriter):
@@ -78,19 +84,39 @@ class ChartWriter(TransitionWriter):
 
     def _end_step(self) -> None:
         for one in self.chart.root.data.values():
-            if one.activity_of is not None and one.activity_of in self.chart.states:
-                active = self.active(self.chart.states[one.activity_of])
-                self.table.write(self.writer, single_of(self.cells[one.ssid]), active)
+            if one.activity_of is not None:
+                self.table.write(self.writer, single_of(self.cells[one.ssid]), self._activity(one))
         by_node: dict[str, dict[str, Callable[[], Expr]]] = {}
         for what, (node, condition) in self._conditions.items():
             by_node.setdefault(node.path, {})[what] = condition
         for node in self.chart.root.every():
             self.times.end(node, self._is_timed(node), by_node.get(node.path, {}))
+        self._give()
         for name, (before, _) in self._memories().items():
             if name in self._starts:
                 self.table.write(self.writer, before, self._starts[name].expr)
         if self._starts:
             self.writer.assign(self._stepped, TRUE)
+
+    def _activity(self, one: DrawnData) -> Expr:
+        """What an output tells of the active states."""
+        if one.activity == "self":
+            state = self.chart.states.get(one.activity_of or 0)
+            return (
+                self.active(state) if state is not None else self._has_begun if not one.activity_of else FALSE
+            )
+        owner = one.type.partition(":")[2].strip()
+
+        def member(name: str) -> Expr:
+            found = self.table.kinds.member(name, owner)
+            if found is None:
+                raise NotLowered(f"{one.name}: {owner} has no member {name}, as a state is named")
+            return found.expr
+
+        made = member(NONE)
+        for ssid, name in activity_members(self.chart.drawn, one).items():
+            made = chosen(self.active(self.chart.states[ssid]), member(name), made)
+        return made
 
     def _once(self, event: str) -> None:
         self._stack.append((0, event))
@@ -199,7 +225,10 @@ class ChartWriter(TransitionWriter):
                 pass
             case _:
                 return False
-        receiver = None if owner is None else state_in(scope.node, words(owner))
+        receiver = None if owner is None or name in self.given else state_in(scope.node, words(owner))
+        if name in self.given:
+            self._wait(name)
+            return True
         self._broadcast(name, receiver)
         if scope.left is not None and scope.alive is not None:
             self.writer.end(scope.left, folded(~scope.alive()))
@@ -208,10 +237,37 @@ class ChartWriter(TransitionWriter):
     def _is_event(self, name: str, scope: TextScope) -> bool:
         if scope.function and f"{scope.function}:{name}" in self.writer.locals:
             return False
-        found = [node.events[name] for node in self.chart.root.every() if name in node.events]
-        if any(one.scope == "output" for one in found):
-            raise NotLowered(f"{name} is an event to other blocks: give them a datum")
-        return bool(found)
+        return any(name in node.events for node in self.chart.root.every())
+
+    def _wait(self, name: str) -> None:
+        """An event to other blocks changes its signal at the end of this step, or of a later one."""
+        if self.chart.root.events[name].trigger == "function call":
+            raise NotLowered(
+                f"{name} is a function call of other blocks: make its trigger Either Edge, and theirs either"
+            )
+        _, waiting = self.given[name]
+        now = single_of(self._now(waiting)).expr
+        self.writer.choose(
+            folded(now == MOST_WAITING),
+            lambda: self.writer.fault(f"{name} may be sent while {MOST_WAITING} of it wait"),
+            lambda: self.table.write(
+                self.writer, waiting, folded(least(now + 1, Const(MOST_WAITING, Num())))
+            ),
+        )
+
+    def _give(self) -> None:
+        """Each event to other blocks that waits changes its signal, once in a step."""
+        for signal, waiting in self.given.values():
+            now, was = (single_of(self._now(one)).expr for one in (waiting, signal))
+
+            def change(
+                signal: SymbolicScalar = signal, waiting: SymbolicScalar = waiting,
+                now: Expr = now, was: Expr = was,
+            ) -> None:  # fmt: skip
+                self.table.write(self.writer, signal, folded(~was))
+                self.table.write(self.writer, waiting, folded(greatest(now - 1, Const(0, Num()))))
+
+            self.writer.choose(folded(now > 0), change)
 
     def _broadcast(self, name: str, receiver: StateNode | None) -> None:
         def answer() -> None:

@@ -10,6 +10,7 @@ from tests.simulink.writer.charts import (
     WrittenEvent,
     WrittenJunction,
     WrittenState,
+    WrittenTable,
     WrittenTransition,
 )
 from tests.simulink.writer.elements import Values, below, made, put
@@ -88,6 +89,8 @@ class ChartXml:
             below(root, "subviewS")
         put(root, {"type": one.type, "decomposition": "SET_STATE" if one.parallel else "CLUSTER_STATE"})
         below(root, "eml", {"isEML": 1, "script": one.script} if one.script else {})
+        if one.table is not None:
+            _table(root, one.table)
         put(root, {"executionOrder": one.order or None})
         _finished(root, one)
         self._children(root, one.children, one.ssid if one.subchart else viewer)
@@ -142,6 +145,24 @@ def _finished(root: Element, one: WrittenElement) -> Element:
     for tag, values in one.inside.items():
         below(root, tag, values)
     return root
+
+
+def _table(root: Element, table: WrittenTable) -> None:
+    """A truth table: its cells column by column."""
+    element = below(root, "truthTable", {"isTruthTable": 1})
+    rows = len(table.conditions) + 1
+    columns = [[""] * rows, [*table.conditions, ""]]
+    for one in table.decisions:
+        letters, _, chosen = one.partition(" ")
+        columns.append([*letters, chosen])
+    grids = {
+        "predicateArray": columns, "actionArray": [[""] * len(table.actions), list(table.actions)]
+    }  # fmt: skip
+    for name, grid in grids.items():
+        size = f"{len(grid[0])}*{len(grid)}"
+        array = below(element, "Array", None, PropName=name, Type="Cell", Dimension=size)
+        for cell in (cell for column in grid for cell in column):
+            below(array, "Cell").text = cell
 
 
 def _data(one: WrittenData) -> Element:

@@ -1,6 +1,6 @@
 """Charts to be written into packages: what is drawn in them, before it is XML."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Literal, TypeAlias, TypeVar, Union
@@ -27,6 +27,16 @@ class WrittenElement:
     inside: Mapping[str, Values] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class WrittenTable:
+    """A truth table: a row for each condition, with its decisions; the last row names the actions."""
+
+    conditions: Sequence[str]
+    decisions: Sequence[str]
+    """Of each decision a letter for each condition, a blank, and its actions: ``TF- 1``."""
+    actions: Sequence[str]
+
+
 @dataclass(eq=False)
 class WrittenState(WrittenElement):
     """A state, a function, a box or a note."""
@@ -37,6 +47,7 @@ class WrittenState(WrittenElement):
     parallel: bool = False
     subchart: bool = False
     script: str = ""
+    table: "WrittenTable | None" = None
     children: "list[WrittenElement]" = field(default_factory=list)
 
 
@@ -155,6 +166,14 @@ class WrittenChart:
         made.script, made.subchart = script, bool(script)
         return self._add(made)
 
+    def truth_table(
+        self, label: str, table: WrittenTable, holder: WrittenState | None = None
+    ) -> WrittenState:
+        """A truth table, without the script or flow chart that Stateflow makes of it."""
+        made = self.function(label, holder)
+        made.table = table
+        return made
+
     def junction(self, holder: WrittenState | None = None, history: bool = False) -> WrittenJunction:
         """A junction."""
         return self._add(WrittenJunction(self._next(), holder or self, history=history))
@@ -247,5 +266,5 @@ def _above(one: Node) -> Iterator[Holder]:
 
 __all__ = [
     "Holder", "Node", "WrittenChart", "WrittenData", "WrittenElement", "WrittenEvent", "WrittenJunction",
-    "WrittenState", "WrittenTransition",
+    "WrittenState", "WrittenTable", "WrittenTransition",
 ]  # fmt: skip

@@ -145,6 +145,7 @@ def _of_chart(sid: str, chart: WrittenChart) -> tuple[WrittenSystem, Counts, Val
     ins = [one.name for one in data if one.scope == "INPUT_DATA"]
     outs = [one.name for one in data if one.scope == "OUTPUT_DATA"]
     events = [one for one in chart.of(WrittenEvent) if one.scope == "INPUT_EVENT"]
+    outs += [f"{one.name}()" for one in chart.of(WrittenEvent) if one.scope == "OUTPUT_EVENT"]
     function, demux, terminator = f"{sid}::10", f"{sid}::11", f"{sid}::12"
     for number, name in enumerate(ins, 1):
         port = inner.add(WrittenBlock(f"{sid}::{19 + number}", "Inport", name, {}, _port(number)))
