@@ -5,7 +5,6 @@ from pathlib import Path
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.model import SCXML
 
 EXAMPLES = """\b
 Examples:
@@ -46,7 +45,7 @@ def import_(
 
     Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
-    if model.suffix == SCXML:
+    if model.suffix == ".scxml":  # what reads either is loaded only then
         from rovercheck.checker.commands.import_.machine import import_machine
 
         return import_machine(model, bool(beside or log or propose or as_json))
