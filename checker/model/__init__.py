@@ -19,6 +19,9 @@ from rovercheck.spec_model.lang.system import System, charts_of
 
 SIMULINK = ".slx"
 """What the name of a model of Simulink ends with."""
+SCXML = ".scxml"
+"""What the name of a machine in SCXML ends with."""
+FOREIGN = (SIMULINK, SCXML)
 EXAMPLE = "`rovercheck init FOLDER` writes an example."
 
 
@@ -72,8 +75,9 @@ class Model:
         """The properties, of which there is one at least.  Raises ``ModelError`` if there is none."""
         if not self.properties:
             forms = "Write one with a form of rovercheck, such as always(...)"
-            if self.path is not None and self.path.suffix == SIMULINK:
-                forms += f", in {self.path.stem}_properties.py beside it (docs/simulink.md)"
+            if self.path is not None and self.path.suffix in FOREIGN:
+                page = "simulink" if self.path.suffix == SIMULINK else "scxml"
+                forms += f", in {self.path.stem}_properties.py beside it (docs/{page}.md)"
             raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
         return self.properties
 

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from rovercheck.checker.model import SIMULINK, shown
+from rovercheck.checker.model import FOREIGN, shown
 from rovercheck.checker.model.neighbours import Neighbours
 from rovercheck.checker.model.statements import statement_faults
 from rovercheck.spec_model.lang.chart import Chart
@@ -20,7 +20,7 @@ _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterabl
 _OURS = Path(__file__).parents[2]
 _PACKAGES = {"site-packages", "dist-packages"}
 """Folders of an environment, which may lie in that of the model."""
-_MODELS = "a model is a .py file, a folder of them or a .slx file"
+_MODELS = "a model is a .py file, a folder of them, a .slx or a .scxml file"
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 
@@ -36,7 +36,7 @@ def files_of(path: Path) -> list[Path]:
         return inside
     if not path.exists():
         raise ModelError(f"There is no {shown(path)}; {_MODELS}.")
-    if path.suffix == SIMULINK:
+    if path.suffix in FOREIGN:
         return _properties_of(path)
     if path.suffix != ".py":
         raise ModelError(f"{shown(path)} is no Python file; {_MODELS}.")

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from rovercheck.checker.model import EXAMPLE, SIMULINK, ForeignModel, Model, shown
+from rovercheck.checker.model import EXAMPLE, FOREIGN, SCXML, ForeignModel, Model, shown
 from rovercheck.checker.model.checks import (
     check_portable,
     concrete_faults,
@@ -35,7 +35,7 @@ def load(path: Path) -> Model:
     ``REQUIREMENTS``, hazards from ``hazards.toml``.  Raises ``ModelError`` for what has no meaning, with a
     line for each fault; only a thing that is faulty already, or what it is about, is not looked at further.
     """
-    drawn = [_drawn(path)] if path.suffix == SIMULINK and path.exists() else []
+    drawn = [_drawn(path)] if path.suffix in FOREIGN and path.exists() else []
     files = files_of(path)
     folder = files[0].parent if files else path.parent
     neighbours, modules, faults = modules_of(files, folder)
@@ -68,7 +68,11 @@ def load(path: Path) -> Model:
 
 
 def _drawn(path: Path) -> ForeignModel:
-    """A model of Simulink: what reads it is loaded only then."""
+    """A model of another tool: what reads it is loaded only then."""
+    if path.suffix == SCXML:
+        from rovercheck.checker.model.machine import read_machine
+
+        return read_machine(path)
     from rovercheck.checker.model.drawn import read_simulink
 
     return read_simulink(path)

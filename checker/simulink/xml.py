@@ -13,6 +13,7 @@ MOST_DEPTH = 200
 MOST_ELEMENTS = 1_000_000
 """Elements of all parts of a package that are read."""
 
+SIMULINK = "Save the model again in Simulink."
 MULTIBYTE = frozenset({
     "shift_jis", "cp932", "euc_jp", "gb2312", "gbk", "gb18030", "big5", "big5hkscs", "euc_kr", "cp949",
     "johab",
@@ -72,8 +73,8 @@ class XmlElement:
 
 
 class _Builder:
-    def __init__(self, place: str, most: int, encoding: str | None) -> None:
-        self.place, self.most, self.number = place, most, 0
+    def __init__(self, place: str, most: int, encoding: str | None, again: str) -> None:
+        self.place, self.most, self.number, self.again = place, most, 0, again
         self.top = XmlElement("", {}, 0)
         self.open = [self.top]
         self.texts: list[list[str]] = [[]]
@@ -104,32 +105,34 @@ class _Builder:
         self.open.pop().text = "".join(self.texts.pop())
 
     def doctype(self, *_: object) -> None:
+        again = "Simulink writes none: save the model again." if self.again == SIMULINK else self.again
         raise ModelError(
             f"{self.place}, line {self.parser.CurrentLineNumber}: a <!DOCTYPE> may define entities, and is "
-            "not read. Simulink writes none: save the model again."
+            f"not read. {again}"
         )
 
 
-def parsed(data: bytes, place: str, most: int = MOST_ELEMENTS) -> tuple[XmlElement, int]:
+def parsed(
+    data: bytes, place: str, most: int = MOST_ELEMENTS, again: str = SIMULINK
+) -> tuple[XmlElement, int]:
     """The root element of a text, which stands at ``place``, and how many elements there are.
 
-    Raises ``ModelError``, also for more elements than ``most``.
+    Raises ``ModelError``, also for more elements than ``most``; ``again`` says how to write the file anew.
     """
-    data, encoding = _in_utf_8(data, place)
-    builder = _Builder(place, most, encoding)
+    data, encoding = _in_utf_8(data, place, again)
+    builder = _Builder(place, most, encoding, again)
     try:
         builder.parser.Parse(data, True)
     except ExpatError as error:
         raise ModelError(
-            f"{place}, line {error.lineno}: it is no XML: {errors.messages.get(error.code, error)}. Save the "
-            "model again in Simulink."
+            f"{place}, line {error.lineno}: it is no XML: {errors.messages.get(error.code, error)}. {again}"
         ) from error
     except (LookupError, ValueError) as error:  # an encoding that does not exist, or is none of text
-        raise ModelError(f"{place}: it is no XML: {error}. Save the model again in Simulink.") from error
+        raise ModelError(f"{place}: it is no XML: {error}. {again}") from error
     return builder.top.children[0], builder.number
 
 
-def _in_utf_8(data: bytes, place: str) -> tuple[bytes, str | None]:
+def _in_utf_8(data: bytes, place: str, again: str) -> tuple[bytes, str | None]:
     """The text in an encoding that the parser knows, and which that is if the text says another one.
 
     Simulink of East Asian systems once declared encodings of several bytes for a letter.
@@ -144,7 +147,7 @@ def _in_utf_8(data: bytes, place: str) -> tuple[bytes, str | None]:
             return data, None
         return codec.decode(data)[0].encode("utf-8"), "utf-8"
     except (LookupError, ValueError) as error:
-        raise ModelError(f"{place}: it is no XML: {error}. Save the model again in Simulink.") from error
+        raise ModelError(f"{place}: it is no XML: {error}. {again}") from error
 
 
 def numbers(text: str, many: int) -> tuple[float, ...]:

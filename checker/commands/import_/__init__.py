@@ -13,6 +13,7 @@ Examples:
   rovercheck import supervisor.slx --compare run.csv
   rovercheck import supervisor.slx --propose-domains
   rovercheck import supervisor.slx --json
+  rovercheck import door.scxml
 """
 
 FILE = click.Path(path_type=Path)
@@ -44,6 +45,10 @@ def import_(
 
     Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
+    if model.suffix == ".scxml":  # what reads either is loaded only then
+        from rovercheck.checker.commands.import_.machine import import_machine
+
+        return import_machine(model, bool(beside or log or propose or as_json))
     from rovercheck.checker.commands.import_.propose import propose_domains
     from rovercheck.checker.commands.import_.run import import_model
 

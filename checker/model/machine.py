@@ -1,0 +1,174 @@
+"""A machine in SCXML as a model to check: its system, and the words in which properties speak of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from random import Random
+from time import monotonic
+
+from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
+from rovercheck.checker.model import SCXML, ForeignModel
+from rovercheck.checker.scxml.interpret import MachineRunner
+from rovercheck.checker.scxml.reader import read_scxml
+from rovercheck.checker.scxml.records import StateMachine
+from rovercheck.checker.scxml.system import LoweredMachine, lowered_machine
+from rovercheck.spec_model.lang.domain import Domain, Num
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr, any_of
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.place import Place, here
+from rovercheck.spec_model.lang.system import Note, System
+
+SECONDS = 1.0
+"""Seconds for which the system is run beside the algorithm of the standard whenever a machine is read."""
+RUNS, STEPS = 20, 50
+
+
+@dataclass(frozen=True)
+class ScxmlModel(ForeignModel):
+    """A machine in SCXML.  ``model["motor"]`` is a datum, ``model["event"]`` the event of a step."""
+
+    path: Path
+    lowered: LoweredMachine
+
+    @property
+    def system(self) -> System:
+        """The system that properties are about."""
+        return self.lowered.system
+
+    @property
+    def names(self) -> Mapping[str, Expr]:
+        """Everything that has a name."""
+        return {**self.lowered.data, "event": self.lowered.event}
+
+    def __getitem__(self, name: str) -> Expr:
+        """The formula of a name.  Raises ``ModelError`` for one that is not there."""
+        if name not in self.names:
+            raise ModelError(f"{self.path.name} has no datum {name!r}. {did_you_mean(name, self.names)}")
+        return self.names[name]
+
+    def active(self, *states: str) -> Expr:
+        """The condition that one of some states is active, by their ids.  Raises ``ModelError``."""
+        return any_of(*(self._active(one) for one in states))
+
+    def _active(self, id: str) -> Expr:
+        known = {one.id: one for one in self.lowered.machine.states if one.kind != "history"}
+        if id not in known:
+            raise ModelError(f"{self.path.name} has no state {id!r}. {did_you_mean(id, known)}")
+        return self.system.charts[0].active_path(self.lowered.view.paths[known[id]])
+
+
+def scxml_model(path: str | Path) -> ScxmlModel:
+    """The machine in a file ``.scxml``, named from the folder of the file that asks for it.
+
+    Domains of data are read from ``NAME.domains.toml`` beside it.  Raises ``ModelError`` for what cannot be
+    read, or has no meaning here.
+    """
+    whole, place = Path(path), here(__name__)
+    if not whole.is_absolute() and place is not None and (Path(place.file).parent / whole).exists():
+        whole = Path(place.file).parent / whole
+    return read_machine(whole)
+
+
+def read_machine(path: Path) -> ScxmlModel:
+    """The same of a path as it stands; read once as long as nothing of it changes."""
+    if not path.exists():
+        raise ModelError(f"There is no {path}; name a machine, a file {SCXML}.")
+    whole = path.resolve()
+    files = (whole, domains_path(whole))
+    return _read(whole, tuple((one, one.stat().st_mtime_ns if one.exists() else 0) for one in files))
+
+
+@lru_cache(maxsize=8)
+def _read(path: Path, _: tuple[tuple[Path, int], ...]) -> ScxmlModel:
+    return lowered_scxml(path, read_scxml(path))
+
+
+def lowered_scxml(path: Path, machine: StateMachine) -> ScxmlModel:
+    """A machine that was read, with its domains.  Raises ``ModelError`` for what has no meaning here."""
+    said = read_domains(domains_path(path))
+    for name in said.domains.keys() - machine.data.keys():
+        raise ModelError(f"{said.path}: {name} is no datum. {did_you_mean(name, machine.data)}")
+    for name in said.domains:
+        _fitting(said.path, name, said.domains[name], machine)
+    try:
+        lowered = lowered_machine(machine, str(path), said.domains)
+    except RecursionError:
+        raise ModelError(f"{path.name}: states or actions are nested too deeply.") from None
+    except ModelError as error:
+        raise ModelError(f"{path.name}: {error}") from error
+    notes = list(lowered.system.notes)
+    difference, said_so, _ = compared(lowered)
+    if difference and not (said_so and said.domains):
+        raise ModelError(
+            f"{path.name}: the two ways in which it is read differ {difference}. This is an error of "
+            "rovercheck: please report it, with the file."
+        )
+    if difference:
+        notes.append(Note(f"In a random run {difference}.", "domains as given"))
+    system = replace(lowered.system, place=Place(str(path), 1), notes=tuple(notes))
+    return ScxmlModel(path, replace(lowered, system=system))
+
+
+def _fitting(file: Path, name: str, domain: Domain, machine: StateMachine) -> None:
+    first = machine.data[name]
+    whole = isinstance(domain.sort, Num) and domain.sort.resolution == 1
+    if isinstance(first, bool) or not whole or first not in domain:
+        raise ModelError(
+            f"{file}: {name} begins as {str(first).lower()}; a domain is of whole numbers, with this one."
+        )
+
+
+def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bool, int]:
+    """Both readings on random events: where they differ first, whether only one says that a step has no
+    meaning, and how many steps they were compared in.
+    """
+    random, end, steps = Random(1), monotonic() + seconds, 0
+    events = ("", *lowered.machine.offered)
+    for run in range(RUNS):
+        if run and monotonic() > end:
+            break
+        direct, system = MachineRunner(lowered.machine), Interpreter(lowered.system)
+        for tick in range(1, STEPS + 1):
+            found = _step(lowered, direct, system, random.choice(events))
+            if found is None:
+                break
+            steps += 1
+            if found[0]:
+                return f"in tick {tick}: {found[0]}", found[1], steps
+            if monotonic() > 2 * seconds + end:
+                break
+    return "", False, steps
+
+
+def _step(
+    lowered: LoweredMachine, direct: MachineRunner, system: Interpreter, event: str
+) -> tuple[str, bool] | None:
+    """One step of both; nothing where neither gives it a meaning."""
+    faults = list[str]()
+    try:
+        direct.step(event)
+    except DrawnFault as fault:
+        faults.append(f"the algorithm of the standard says: {fault}")
+    try:
+        system.step({"event": lowered.event.domain.raw(event or "none")})
+    except ModelError as error:
+        faults.append(f"the system says: {error}")
+    if len(faults) == 2:
+        return None
+    if faults:
+        return faults[0].rstrip("."), True
+    at, [chart] = system.valuation(), lowered.system.charts
+    states = [one for one in lowered.machine.states if one.kind != "history"]
+    other = {one.id for one in states if evaluate(chart.active_path(lowered.view.paths[one]), at)}
+    told = [f"{id} is active in one of them" for id in sorted(other ^ {one.id for one in direct.active})]
+    for name, var in lowered.data.items():
+        if at[name] != var.domain.raw(direct.data[name]):
+            told.append(f"{name} is {direct.data[name]} and {at[name]}")
+    return ", ".join(told), False
+
+
+__all__ = ["ScxmlModel", "compared", "lowered_scxml", "read_machine", "scxml_model"]

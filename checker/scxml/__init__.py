@@ -1,0 +1,1 @@
+"""State machines in SCXML: what stands in a file, and what it means, twice."""

@@ -1,0 +1,80 @@
+"""Expressions of a machine as formulas."""
+
+from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.scxml.records import (
+    Constant,
+    DatumName,
+    InState,
+    MachineState,
+    Operation,
+    ScxmlExpression,
+    StateMachine,
+)
+from rovercheck.checker.scxml.view import MachineView
+from rovercheck.spec_model.lang.domain import boolean, integer
+from rovercheck.spec_model.lang.expr import Expr, Var, const, ite
+
+
+class FormulaWriter:
+    """What a machine reads: which states are active within a step, data, and what is delayed."""
+
+    def __init__(
+        self, machine: StateMachine, view: MachineView, data: dict[str, Var], writer: ProgramWriter
+    ) -> None:
+        self.machine, self.view, self.data, self.writer = machine, view, data, writer
+        self.active: dict[MachineState, Var] = {
+            one: writer.temporary(f"in {one.id} ", boolean) for one in machine.states if one.kind != "history"
+        }
+        self.timers = {
+            one.number: Var(
+                f"{machine.name}.delay {one.event} {one.number}", integer(0, one.delay // machine.tick), 0,
+                f"steps until {one.event} of line {one.line}, 0 if it was not sent",
+            )
+            for one in machine.sends if one.delay
+        }  # fmt: skip
+
+    def formula(self, one: ScxmlExpression) -> Expr:
+        """An expression at this point of the step."""
+        match one:
+            case Constant(value):
+                return const(value)
+            case DatumName(name):
+                return self.data[name]
+            case InState(id):
+                return self.active[self.machine.named[id]]
+            case Operation(operator, operands):
+                return _applied(operator, [self.formula(inner) for inner in operands])
+
+
+def _applied(operator: str, of: list[Expr]) -> Expr:
+    match operator:
+        case "!":
+            return ~of[0]
+        case "neg":
+            return -of[0]
+        case "?":
+            return ite(of[0], of[1], of[2])
+        case "&&":
+            return of[0] & of[1]
+        case "||":
+            return of[0] | of[1]
+        case "+":
+            return of[0] + of[1]
+        case "-":
+            return of[0] - of[1]
+        case "*":
+            return of[0] * of[1]
+        case "==":
+            return of[0] == of[1]
+        case "!=":
+            return of[0] != of[1]
+        case "<":
+            return of[0] < of[1]
+        case "<=":
+            return of[0] <= of[1]
+        case ">":
+            return of[0] > of[1]
+    return of[0] >= of[1]
+
+
+__all__ = ["FormulaWriter"]
