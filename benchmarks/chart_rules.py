@@ -3,9 +3,9 @@
     python -m benchmarks.chart_rules [--reading READING] [RULE ...]
 
 Copies the project, breaks one rule of chart_rules.toml after the other, and runs the tests of its reading on
-each: of the direct interpreter (``interpret``), of the lowering (``lower``), of what both rest on (``drawn``),
-or of the packages (``simulink``).  Prints the first test that fails.  A rule is named by its first words.  The
-exit code is 1 if one is broken unnoticed.
+each: of the direct interpreter (``interpret``), of the lowering (``lower``), of what both rest on
+(``drawn``), or of the packages (``simulink``).  Prints the first test that fails.  A rule is named by its
+first words.  The exit code is 1 if one is broken unnoticed.
 """
 
 import argparse
@@ -32,7 +32,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class BrokenRule:
-    """A rule, the module of a reading in which it stands, what is written there once, and what takes its place."""
+    """A rule, the module of a reading it is in, what is written there once, and what takes its place."""
 
     name: str
     module: str
