@@ -46,8 +46,8 @@ INTERPRETER = (
     "tests/drawn/test_interpreter_numbers.py", "tests/drawn/test_diagram_runs.py",
 )  # fmt: skip
 LOWERING = (
-    "tests/drawn/test_lowering.py", "tests/simulink/test_simulink_model.py",
-    "tests/drawn/test_two_readings.py",
+    "tests/drawn/test_lowering.py", "tests/drawn/test_lowering_blocks.py", *INTERPRETER,
+    "tests/simulink/test_simulink_model.py", "tests/drawn/test_two_readings.py",
 )  # fmt: skip
 PACKAGES = ("tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py")
 READINGS: Mapping[str, Reading] = {
