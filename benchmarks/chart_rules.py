@@ -47,7 +47,8 @@ INTERPRETER = (
 )  # fmt: skip
 LOWERING = (
     "tests/drawn/test_lowering.py", "tests/drawn/test_lowering_blocks.py", *INTERPRETER,
-    "tests/simulink/test_simulink_model.py", "tests/drawn/test_two_readings.py",
+    "tests/simulink/test_simulink_model.py", "tests/simulink/test_by_hand.py",
+    "tests/drawn/test_two_readings.py",
 )  # fmt: skip
 PACKAGES = ("tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py")
 READINGS: Mapping[str, Reading] = {
