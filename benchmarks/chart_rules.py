@@ -1,38 +1,64 @@
-"""Whether the tests notice when a rule of Stateflow's semantics is broken in the interpreter of drawn models.
+"""Whether the tests notice when a rule of Stateflow's semantics is broken in a reading of drawn models.
 
-    python -m benchmarks.chart_rules [RULE ...]
+    python -m benchmarks.chart_rules [--reading READING] [RULE ...]
 
-Copies the project, breaks one rule of chart_rules.toml after the other, and runs the tests of the interpreter
-(tests/drawn) on each.  A rule is named by its first words.  The exit code is 1 if one is broken unnoticed.
+Copies the project, breaks one rule of chart_rules.toml after the other, and runs the tests of its reading on
+each: of the direct interpreter (``interpret``), of the lowering (``lower``), of what both rest on
+(``drawn``), or of the packages (``simulink``).  Prints the first test that fails.  A rule is named by its
+first words.  The exit code is 1 if one is broken unnoticed.
 """
 
+import argparse
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.edits import LEFT_OUT, ROOT
 
-TESTS = (
-    "tests/drawn/test_interpreter.py",
-    "tests/drawn/test_interpreter_times.py",
-    "tests/drawn/test_interpreter_numbers.py",
-    "tests/drawn/test_diagram_runs.py",
-)
-INTERPRETER = Path("checker/drawn/interpret")
+
+@dataclass(frozen=True)
+class Reading:
+    """Where the modules of a reading are, and its tests, quick ones first."""
+
+    folder: Path
+    tests: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class BrokenRule:
-    """A rule, the module in which it stands, what is written there once, and what takes its place."""
+    """A rule, the module of a reading it is in, what is written there once, and what takes its place."""
 
     name: str
     module: str
     before: str
     after: str
+    reading: str = "interpret"
+
+
+INTERPRETER = (
+    "tests/drawn/test_interpreter.py", "tests/drawn/test_early_return.py",
+    "tests/drawn/test_interpreter_times.py", "tests/drawn/test_interpreter_numbers.py",
+    "tests/drawn/test_computed_numbers.py", "tests/drawn/test_diagram_runs.py",
+)  # fmt: skip
+LOWERING = (
+    "tests/drawn/test_lowering.py", "tests/drawn/test_lowering_blocks.py", *INTERPRETER,
+    "tests/simulink/test_simulink_model.py", "tests/simulink/test_by_hand.py",
+    "tests/drawn/test_two_readings.py",
+)  # fmt: skip
+PACKAGES = ("tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py")
+READINGS: Mapping[str, Reading] = {
+    "interpret": Reading(Path("checker/drawn/interpret"), INTERPRETER),
+    "lower": Reading(Path("checker/drawn/lower"), LOWERING),
+    "drawn": Reading(Path("checker/drawn"), INTERPRETER),
+    "simulink": Reading(Path("checker/simulink"), PACKAGES),
+}
+_FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 
 
 def rules() -> list[BrokenRule]:
@@ -41,41 +67,56 @@ def rules() -> list[BrokenRule]:
     return [BrokenRule(**one) for one in tomllib.loads(text)["rule"]]
 
 
-def main(names: list[str]) -> int:
+def main(arguments: list[str]) -> int:
     """Break each rule, and print whether it is noticed; the exit code."""
-    chosen = [one for one in rules() if not names or any(one.name.startswith(name) for name in names)]
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.chart_rules")
+    parser.add_argument("--reading", choices=READINGS, action="append", help="only the rules of this reading")
+    parser.add_argument("names", nargs="*", metavar="RULE", help="the first words of a rule")
+    given = parser.parse_args(arguments)
+    chosen = [
+        one
+        for one in rules()
+        if one.reading in (given.reading or READINGS)
+        and (not given.names or any(one.name.startswith(name) for name in given.names))
+    ]
     unnoticed = 0
     with tempfile.TemporaryDirectory(prefix="rovercheck-rules-") as place:
         project = Path(place) / "project"
         shutil.copytree(ROOT, project, symlinks=True, ignore=LEFT_OUT)
-        if not tested(project):
-            print("the tests fail though nothing is broken", file=sys.stderr)
-            return 4
+        for reading in dict.fromkeys(one.reading for one in chosen):
+            if failed := first_failure(project, READINGS[reading]):
+                print(f"{failed} fails though nothing is broken", file=sys.stderr)
+                return 4
         for one in chosen:
             noticed = broken(project, one)
             unnoticed += not noticed
-            print(f"{'noticed' if noticed else 'UNNOTICED':10} {one.name}", flush=True)
+            print(f"{one.reading:10} {one.name}: {noticed or 'UNNOTICED'}", flush=True)
     print(f"{len(chosen) - unnoticed} of {len(chosen)} broken rules are noticed")
     return 1 if unnoticed else 0
 
 
-def broken(project: Path, one: BrokenRule) -> bool:
-    """Whether the tests fail with a rule broken, which is then as it was."""
-    file = project / INTERPRETER / f"{one.module}.py"
+def broken(project: Path, one: BrokenRule) -> str:
+    """The first test that fails with a rule broken, which is then as it was; empty if none does."""
+    reading = READINGS[one.reading]
+    file = project / reading.folder / f"{one.module}.py"
     text = file.read_text(encoding="utf-8")
     if text.count(one.before) != 1:
         raise ValueError(f"{one.name}: {one.before!r} is {text.count(one.before)} times in {file.name}")
     file.write_text(text.replace(one.before, one.after), encoding="utf-8")
     try:
-        return not tested(project)
+        return first_failure(project, reading)
     finally:
         file.write_text(text, encoding="utf-8")
 
 
-def tested(project: Path) -> bool:
-    """Whether the tests of the interpreter succeed in a copy of the project."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *TESTS]
-    return subprocess.run(command, cwd=project, capture_output=True, check=False, timeout=900).returncode == 0
+def first_failure(project: Path, reading: Reading) -> str:
+    """The first test of a reading that fails in a copy of the project; empty if all succeed."""
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *reading.tests]
+    done = subprocess.run(command, cwd=project, capture_output=True, check=False, timeout=900, text=True)
+    if done.returncode == 0:
+        return ""
+    found = _FAILED.search(done.stdout)
+    return found[1] if found else "the tests do not run"
 
 
 if __name__ == "__main__":

@@ -5,7 +5,10 @@ from pathlib import Path
 from typing import Literal
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
+from rovercheck.checker.drawn.lower.diagram import lowered_model
+from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.spec_model.lang.domain import chosen, fixed
 from tests.simulink.writer.charts import WrittenChart
 from tests.simulink.writer.packages import WrittenModel
 
@@ -46,9 +49,19 @@ def running(
     return ModelRunner(read_model(model.save(folder / "one.slx")))
 
 
-def logged(runner: ModelRunner, inputs: Sequence[float], name: str = "u") -> list[float]:
-    """What ``log`` is after each step: each action puts its digit behind those before it."""
-    return [runner.step({name: value})["log"] for value in inputs]
+def logged(
+    runner: ModelRunner, inputs: Sequence[float], name: str = "u", *, lowers: bool = True
+) -> list[float]:
+    """What ``log`` is after each step: each action puts its digit behind those before it.
+
+    The lowered model gives the same, unless a test says that it ``lowers`` to nothing.
+    """
+    found = [runner.step({name: value})["log"] for value in inputs]
+    if lowers:
+        domains = {name: chosen(map(str, {*inputs})), "log": fixed(-10, 10**9, "0.5")}
+        lowered = LoweredRun(lowered_model(runner.model, "one.slx", domains))
+        assert [lowered.step({name: value})["log"] for value in inputs] == found
+    return found
 
 
 def note(digit: int) -> str:

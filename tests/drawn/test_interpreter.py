@@ -99,7 +99,7 @@ def test_a_junction_without_a_way_on_ends_the_search(tmp_path: Path) -> None:
 def test_junctions_may_be_a_loop_that_a_guard_ends_and_one_without_end_is_told(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
         a, b, j = c.state("A"), c.state("B"), c.junction()
-        c.data("n", "local", "double", 0)
+        c.data("n", "local", "uint8", 0)
         c.transition(None, a)
         c.transition(a, j)
         c.transition(j, j, f"[n < u]{{n = n + 1; {note(1)}}}", 1)

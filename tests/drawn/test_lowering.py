@@ -197,6 +197,38 @@ def test_events_answered_within_each_other_do_not_make_a_step_long(tmp_path: Pat
     both(runner, [0, 1])
 
 
+def test_a_region_that_an_event_entered_already_is_not_entered_again(tmp_path: Path) -> None:
+    """The entry action of the first region has the state around it left and entered with all regions."""
+
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        c.data("sent", "local", "boolean")
+        p = c.state("P", parallel=True)
+        first = c.state(f"R1\nen: {note(1)} if ~sent, sent = true; E; end", p, order=1)
+        second = c.state(f"R2\nen: {note(2)}", p, order=2)
+        assert first is not second
+        c.transition(None, p)
+        c.transition(p, p, "E")
+
+    assert both(running(tmp_path, draw), [0, 0]) == [112, 112]
+
+
+def test_a_time_of_a_state_that_is_not_active_does_not_go_on(tmp_path: Path) -> None:
+    """It would be one more thing by which the states of the system differ."""
+
+    def draw(c: WrittenChart) -> None:
+        a, b = c.state("A"), c.state(f"B\nen: {note(1)}")
+        c.transition(None, a)
+        c.transition(a, b, "[duration(u == 1) >= 0.3]")
+
+    runner = running(tmp_path, draw)
+    both(runner, [1, 1, 1, 1, 1])
+    run = LoweredRun(lowered_model(runner.model, "one.slx", DOMAINS))
+    for _ in range(6):
+        run.step({"u": 1})
+    assert [raw for name, raw in run.active().items() if "held" in name] == [0]
+
+
 # --- diagrams -----------------------------------------------------------------------------------------------
 
 

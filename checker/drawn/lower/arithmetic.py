@@ -82,9 +82,13 @@ def scalar_of(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: Int
     else:
         raise NotLowered(f"the operator {sign} is not known here")
     if kind in INTEGERS:
-        whole = toward_zero(exact) if rules.c else nearest_of(exact)
-        return SymbolicScalar(kind, in_range(whole, kind, rules.saturates))
+        return SymbolicScalar(kind, in_range(_whole(exact, rules), kind, rules.saturates))
     return SymbolicScalar(kind, toward_zero(exact) if kind == UNTYPED else exact)
+
+
+def _whole(exact: Expr, rules: IntegerRules) -> Expr:
+    """A whole number as MATLAB rounds it, or as C cuts it."""
+    return toward_zero(exact) if rules.c else nearest_of(exact)
 
 
 def _compared(sign: str, left: SymbolicScalar, right: SymbolicScalar) -> Expr:
@@ -131,8 +135,9 @@ def _kind_in_c(left: SymbolicScalar, right: SymbolicScalar) -> str:
 
 def _quotient(one: Expr, other: Expr, kind: str, rules: IntegerRules) -> Expr:
     def by(divisor: Fraction) -> Expr:
-        if divisor:
-            return folded(one / divisor)
+        if divisor:  # integers are rounded here: no resolution is common to the quotients of all divisors
+            exact = folded(one / divisor)
+            return _whole(exact, rules) if kind in INTEGERS else exact
         if kind not in INTEGERS or rules.c:
             raise NotLowered(f"`{one} / {other}` may divide by 0")
         low, high = INTEGERS[kind]

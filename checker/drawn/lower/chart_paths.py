@@ -67,8 +67,7 @@ class PathWriter(WordWriter):
             return
         longer = [*path, one]
         if isinstance(one.target, StateNode) or one.target.history:
-            complete(longer)
-            self.writer.end(done)
+            complete(longer)  # which ends the search with all that is around it
             return
         if not one.target.outgoing:
             if in_function:
