@@ -6,8 +6,8 @@ from typing import Literal
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 Draw = Callable[[WrittenChart], object]
 LOG = {"log": "double"}

@@ -6,7 +6,7 @@ import pytest
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from tests.drawn.charts import LOG, logged, running
-from tests.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.charts import WrittenChart
 
 ADD = """function [y, calls] = add(x)
 persistent n

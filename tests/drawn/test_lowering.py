@@ -12,8 +12,8 @@ from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.domain import fixed
 from tests.drawn.charts import LOG, note, running
 from tests.drawn.two_readings import Row, compared
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 DOMAINS = {"u": fixed(-10, 10, 1), "v": fixed(-10, 10, 1), "log": fixed(0, 10**7, 1)}
 

@@ -11,7 +11,7 @@ from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.unknown import unknown_names
 from rovercheck.checker.simulink.model import read_model
 from tests.simulink.samples import EXAMPLES
-from tests.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 KNOWN = """function y = f(x)
 persistent k

@@ -15,7 +15,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.corruption import damaged
 from tests.simulink.hostile import CHART, ROOT, harmless, lamp, outcome, package_in, refused_parts
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.packages import DIAGRAM, Files, WrittenModel, packed
+from rovercheck.checker.simulink.writer.packages import DIAGRAM, Files, WrittenModel, packed
 
 MANY = 200
 """Random damages of each example; ``python -m tests.simulink.corruption`` tries any number of them."""

@@ -16,8 +16,8 @@ from rovercheck.checker.simulink.model import read_model
 from tests.cli.test_widths import at_terminal, too_long
 from tests.schemas import published
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.charts import WrittenJunction
-from tests.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.charts import WrittenJunction
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 DRAWN = Draft202012Validator(published("import-1"))
 
