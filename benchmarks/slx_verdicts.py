@@ -2,9 +2,9 @@
 
     python -m benchmarks.slx_verdicts [--seconds SECONDS] [--within MINUTES] [SYSTEM ...]
 
-Every system without enabled subsystems is written, and its properties are decided on what is read from its file.
-Each gets as many seconds; after as many minutes no further system is begun.  The exit code is 1 if a verdict
-differs.
+Every system without enabled subsystems is written, and its properties are decided on what is read from
+its file.  Each gets as many seconds; after as many minutes no further system is begun.  The exit code is 1
+if a verdict differs.
 """
 
 import argparse
@@ -148,7 +148,11 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
         again = read_again(system, folder)
     except ModelError as error:
         kind = "enabled subsystem" if "executes only while" in str(error) else "refused"
-        print(f"{system.name}: {str(error).splitlines()[0][:300]}" if kind == "refused" else f"{system.name}: {kind}")
+        print(
+            f"{system.name}: {str(error).splitlines()[0][:300]}"
+            if kind == "refused"
+            else f"{system.name}: {kind}"
+        )
         return Counter({kind: len(properties)})
     search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
     for result in results(properties, {system.name: again}, search, quiet=True):

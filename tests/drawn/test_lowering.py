@@ -9,11 +9,11 @@ from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.domain import fixed
 from tests.drawn.charts import LOG, note, running
 from tests.drawn.two_readings import Row, compared
-from rovercheck.checker.simulink.writer.charts import WrittenChart
-from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 DOMAINS = {"u": fixed(-10, 10, 1), "v": fixed(-10, 10, 1), "log": fixed(0, 10**7, 1)}
 
@@ -244,3 +244,13 @@ def test_a_disabled_subsystem_holds_what_passes_through_it(tmp_path: Path) -> No
     rows: list[Row] = [{"u": n, "v": v} for n, v in enumerate((0, 1, 1, 0, 1), 1)]
     assert both(runner, rows, "y1") == [0, 1, 2, 2, 4]
     assert both(runner, rows, "y2") == [3, 3, 1, 1, 2]
+
+
+def test_a_number_is_rounded_to_steps_larger_than_one(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart) -> None:
+        chart.transition(None, chart.state("A\nen, du: log = u + 1;"))
+
+    runner = running(tmp_path, draw)
+    lowered = lowered_model(runner.model, "one.slx", {"u": fixed(0, 20, 1), "log": fixed(0, 100, 5)})
+    run = LoweredRun(lowered)
+    assert [run.step({"u": value})["log"] for value in (0, 1, 2, 13)] == [0, 0, 5, 15]

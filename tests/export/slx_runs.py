@@ -1,31 +1,29 @@
 """A random system of charts, and the model of Simulink that is written of it, run beside each other."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from random import Random
 
-from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.drawn.lower.run import LoweredRun
-from rovercheck.checker.export.slx import SlxModel, simulink_of
+from rovercheck.checker.export.slx import simulink_of
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart, Component
+from rovercheck.spec_model.lang.chart import Path as Path_
 from rovercheck.spec_model.lang.domain import Num
-from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import System, in_order
-from rovercheck.spec_model.lang.wellformed import check_system
-from tests.random_charts import charts
-from tests.random_formulas import DOMAINS, Source
-from tests.strategies import FROZEN, INPUTS
+from tests.random_formulas import Choices, Source, T
+from tests.strategies import FROZEN, INPUTS, a_datum, a_part
 
 ROWS = 60
 
 
-class SeededChoices:
+class SeededChoices(Choices):
     """The choices of random systems, from a seed."""
 
     def __init__(self, seed: int) -> None:
@@ -37,23 +35,23 @@ class SeededChoices:
     def chance(self, one_in: int) -> bool:
         return self.below(one_in) == 1 % one_in
 
-    def pick(self, options):  # type: ignore[no-untyped-def]
+    def pick(self, options: Sequence[T]) -> T:
         return options[self.below(len(options))]
 
 
 def random_system(seed: int) -> System:
     """One to three random charts and blocks, in order."""
-    from tests.strategies import _datum, _part
-
     choices = SeededChoices(seed)
     count = 1 + choices.below(3)
-    data = [[_datum(choices, f"d{c}{i}") for i in range(1 + choices.below(3))] for c in range(count)]
+    data = [[a_datum(choices, f"d{c}{i}") for i in range(1 + choices.below(3))] for c in range(count)]
     places: list[Expr] = []
     made: list[Component] = []
     for number in range(count):
         others = [v for other, owned in enumerate(data) if other != number for v in owned]
         steady = [*INPUTS, *others, *FROZEN]
-        part = _part(Source(choices, [*data[number], *data[number], *steady], steady, places), number, data[number])
+        part = a_part(
+            Source(choices, [*data[number], *data[number], *steady], steady, places), number, data[number]
+        )
         if isinstance(part, Chart):
             places += [part.active_path(p) for p in part.states if p]
         made.append(part)
@@ -90,16 +88,20 @@ def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> in
         }
         for run in runs:
             found = run.step(given)
-            assert found == expected, f"seed {seed}, row {row}, {type(run).__name__}: {given} gives { {n: (found[n], expected[n]) for n in found if found[n] != expected[n]} }"
-        active = {n.path.split("/", 1)[1].replace("/", ".") for m in runs[1].machines for n in m.active if n.parent is not None}
+            unlike = {n: (found[n], expected[n]) for n in found if found[n] != expected[n]}
+            assert not unlike, f"seed {seed}, row {row}, {type(run).__name__}: {given} gives {unlike}"
+        active = {
+            n.path.split("/", 1)[1].replace("/", ".")
+            for m in runs[1].machines
+            for n in m.active
+            if n.parent is not None
+        }
         wrong = [n for n, on in places.items() if on != (n in active)]
         assert not wrong, f"seed {seed}, row {row}: {wrong}, active {active}"
     return rows
 
 
-def _holds(chart: Chart, path, at) -> int:  # type: ignore[no-untyped-def]
-    from rovercheck.spec_model.lang.evaluate import evaluate
-
+def _holds(chart: Chart, path: Path_, at: Mapping[str, int]) -> int:
     return evaluate(chart.active_path(path), at)
 
 

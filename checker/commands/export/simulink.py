@@ -13,9 +13,7 @@ from rovercheck.checker.model.variant import Variant
 SUFFIX = ".slx"
 
 
-def export_simulink(
-    ids: Sequence[str], about: Sequence[str], variant: Variant, output: Path | None
-) -> Exit:
+def export_simulink(ids: Sequence[str], about: Sequence[str], variant: Variant, output: Path | None) -> Exit:
     """Write a system with the files beside it; what these do not hold is said.
 
     Raises ``UsageError`` where no one system is named, or no file can be written, ``ModelError`` for a system
@@ -33,7 +31,9 @@ def export_simulink(
         for one in made.save(target):
             wrote(one)
     except OSError as error:
-        raise UsageError(f"Cannot write {whole(target)}: {error.strerror}. Choose another --output.") from error
+        raise UsageError(
+            f"Cannot write {whole(target)}: {error.strerror}. Choose another --output."
+        ) from error
     for note in made.notes:
         err.print(f"Not in the file: {note}.", markup=False)
     return Exit.AS_EXPECTED

@@ -98,7 +98,7 @@ class ChartWriter:
         return text
 
     def _junction(self, path: Path, level: Path, source: Path | None) -> WrittenJunction:
-        """The junction for ways from states of one level: it lies there, so that they leave no more than here.
+        """The junction for ways from states of one level: it lies there, so that they leave no more.
 
         Where a way asks for how long a condition of its state has held, each state has its own.
         """
@@ -117,9 +117,9 @@ class ChartWriter:
             ):
                 return True
             target = self.chart.resolve(path[:-1], one.target)
-            if target in self.chart.junctions and target not in seen:
-                if self._leads_to_counters(target, seen):
-                    return True
+            onward = target in self.chart.junctions and target not in seen
+            if onward and target is not None and self._leads_to_counters(target, seen):
+                return True
         return False
 
     def _restarted(self, path: Path) -> None:
@@ -158,10 +158,10 @@ class ChartWriter:
                     left = len(_scope(source[:-1], end)) < len(outer)
                     if left and outer[:common] == end[:common]:
                         raise ModelError(
-                            f"{self.chart.name}: a transition of {'.'.join(source)} leaves {'.'.join(outer)} and "
-                            f"enters it again, by way of {'.'.join(end)}; whether its later regions are then "
-                            "executed in the same step, Stateflow does not say. Let the last region do it, or "
-                            "draw the transition from the composite itself."
+                            f"{self.chart.name}: a transition of {'.'.join(source)} leaves "
+                            f"{'.'.join(outer)} and enters it again, by way of {'.'.join(end)}; whether "
+                            "its later regions are then executed in the same step, Stateflow does not say. "
+                            "Let the last region do it, or draw the transition from the composite itself."
                         )
 
     def _ends(self, level: Path, one: Transition, seen: set[Path]) -> Iterator[Path]:

@@ -131,7 +131,9 @@ class FormulaWriter:
             self.chooses = True
             return f"{CHOICE}({self(test, word)}, {self(then, word)}, {self(other, word)})"
         if isinstance(then.sort, Enum):
-            raise ModelError(f"`{Apply(Op.ITE, tuple(args), then.sort)}` chooses a member within a formula; assign it.")
+            raise ModelError(
+                f"`{Apply(Op.ITE, tuple(args), then.sort)}` chooses a member within a formula; assign it."
+            )
         inner = self._inner(test, word)
         return f"({inner} && {self._inner(then, word)}) || (~{inner} && {self._inner(other, word)})"
 
@@ -157,7 +159,7 @@ class FormulaWriter:
 
 
 def _between(sign: str) -> Callable[[Sequence[str]], str]:
-    return lambda args: sign.join(args)
+    return sign.join
 
 
 CALLS: Mapping[Op, str] = {Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max", Op.MOD: "mod"}

@@ -11,12 +11,11 @@ from rovercheck.checker.export.slx.charts import ChartWriter, state_names
 from rovercheck.checker.export.slx.formulas import CHOICE, CHOICE_SCRIPT, FormulaWriter
 from rovercheck.checker.export.slx.names import identifier
 from rovercheck.checker.export.slx.words import ChartWords
-from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.checker.simulink.writer.dictionaries import dictionary
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.action import Send, each_action
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
-from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, show
+from rovercheck.spec_model.lang.domain import Bool, Domain, Num, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import TRUE, Var
 from rovercheck.spec_model.lang.system import System, enabled_in
@@ -42,7 +41,7 @@ class SlxModel:
     notes: tuple[str, ...]
 
     def save(self, path: FilePath) -> tuple[FilePath, ...]:
-        """Write ``NAME.slx`` and, beside it, ``NAME.domains.toml`` and ``NAME.sldd`` where they are needed."""
+        """Write ``NAME.slx`` and, beside it, ``NAME.domains.toml`` and ``NAME.sldd`` if needed."""
         made = [path]
         if self.enumerations:
             beside = path.with_suffix(".sldd")
@@ -74,8 +73,8 @@ class _SystemWriter:
         for one in enabled_in(system.components):
             inside = ", ".join(part.name for part in parts(one.components))
             raise ModelError(
-                f"{system.name}: the subsystem of {inside} executes only while `{one.by}`, and in Stateflow the "
-                "regions of one chart execute in every step; write a system of what is in it alone."
+                f"{system.name}: the subsystem of {inside} executes only while `{one.by}`, and in Stateflow "
+                "the regions of one chart execute in every step; write a system of what is in it alone."
             )
         self.name = identifier(system.name)
         self.model = WrittenModel(self.name, step=show(Fraction(system.tick_ms, 1000)))
@@ -192,7 +191,7 @@ def _decimal(one: Var) -> Domain:
     assert isinstance(one.sort, Num)
     if "/" in show(one.sort.resolution):
         raise ModelError(
-            f"{one.name} has steps of {one.sort.resolution}, which no decimal number is; give it a resolution "
+            f"{one.name} has steps of {one.sort.resolution}, which no decimal is; give it a resolution "
             "such as 0.25."
         )
     return Domain(Num(one.sort.resolution), one.domain.values)

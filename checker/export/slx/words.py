@@ -1,7 +1,7 @@
 """Temporal words of one chart: Stateflow's own where they mean the same, and else counters that are drawn.
 
-Stateflow's ``duration(c)`` restarts when a guard that asks for it is evaluated, here it restarts when its state
-is executed: that is the same where ``c`` does not change from then to the end of the step.  ``held`` and
+Stateflow's ``duration(c)`` restarts when a guard that asks for it is evaluated, here when its state is
+executed: that is the same where ``c`` does not change from then to the end of the step.  ``held`` and
 ``rising`` are seen at the start of the chart's step, before which other charts may write.
 """
 
@@ -38,7 +38,7 @@ class ChartWords:
     _known: dict[object, str] = field(default_factory=dict)
 
     def of(self, source: Path | None) -> Word:
-        """What is written for words of a guard on a way from a state; of actions and default ways from none."""
+        """What is written for words on a way from a state; in actions and on default ways from none."""
         return lambda word: self._written(word, source)
 
     def counts(self, word: Temporal) -> bool:
