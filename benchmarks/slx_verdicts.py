@@ -156,7 +156,8 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
         return Counter({kind: len(properties)})
     search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
     for result in results(properties, {system.name: again}, search, quiet=True):
-        one = CheckedProperty(result, expected(result.property.id))
+        apart = "read again" if system.concrete else ""  # the kept run is then one of another system
+        one = CheckedProperty(result, expected(result.property.id), apart)
         if isinstance(result.verdict, Unknown):
             told["not decided"] += 1
         elif one.as_expected:
