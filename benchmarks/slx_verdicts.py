@@ -155,7 +155,14 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
         )
         return Counter({kind: len(properties)})
     search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
-    for result in results(properties, {system.name: again}, search, quiet=True):
+    try:
+        found = list(results(properties, {system.name: again}, search, quiet=True))
+    except ModelError as error:
+        if len(properties) > 1:
+            return sum((_decided(system, [one], folder, seconds) for one in properties), told)
+        print(f"{properties[0].id}: {error}", flush=True)
+        return Counter({"not asked": 1})
+    for result in found:
         apart = "read again" if system.concrete else ""  # the kept run is then one of another system
         one = CheckedProperty(result, expected(result.property.id), apart)
         if isinstance(result.verdict, Unknown):
