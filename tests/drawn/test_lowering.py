@@ -254,3 +254,17 @@ def test_a_number_is_rounded_to_steps_larger_than_one(tmp_path: Path) -> None:
     lowered = lowered_model(runner.model, "one.slx", {"u": fixed(0, 20, 1), "log": fixed(0, 100, 5)})
     run = LoweredRun(lowered)
     assert [run.step({"u": value})["log"] for value in (0, 1, 2, 13)] == [0, 0, 5, 15]
+
+
+def test_states_that_share_a_junction_count_a_duration_each(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart) -> None:
+        one, other, end = chart.state("A"), chart.state("B"), chart.state("C\nen: log = 1;")
+        shared = chart.junction()
+        chart.transition(None, one)
+        chart.transition(one, shared)
+        chart.transition(one, other, "[u > 5]", 2)
+        chart.transition(other, shared)
+        chart.transition(shared, end, "[duration(u > 0) > 0.2]")
+
+    model = running(tmp_path, draw).model
+    assert compared(model, [{"u": 1}] * 6, domains={"u": fixed(0, 9, 1)}).rows == 6
