@@ -27,31 +27,33 @@ def systems(draw: DrawFn) -> System:
     """A random system that passes ``check_system``."""
     choices = Choices(draw)
     count = 1 + choices.below(3)
-    data = [[_datum(choices, f"d{c}{i}") for i in range(1 + choices.below(3))] for c in range(count)]
+    data = [[a_datum(choices, f"d{c}{i}") for i in range(1 + choices.below(3))] for c in range(count)]
     places: list[Expr] = []
     made: list[Component] = []
     for number in range(count):
         others = [v for other, owned in enumerate(data) if other != number for v in owned]
         steady = [*INPUTS, *others, *FROZEN]
         source = Source(choices, [*data[number], *data[number], *steady], steady, places)
-        part = _part(source, number, data[number])
+        part = a_part(source, number, data[number])
         if isinstance(part, Chart):
             places += [part.active_path(p) for p in part.states if p]
         made.append(part)
     return in_order("Random", *_some_enabled(choices, made, data), frozen=FROZEN)
 
 
-def _datum(choices: Choices, name: str) -> Var:
+def a_datum(choices: Choices, name: str) -> Var:
+    """A variable of some domain."""
     domain = choices.pick(DOMAINS)
     return Var(name, domain, choices.pick(domain.values))
 
 
-def _part(source: Source, number: int, data: list[Var]) -> Component:
+def a_part(source: Source, number: int, data: list[Var]) -> Component:
+    """A chart, or a block, that writes the data."""
     if number and source.chance(4):
         return Block(
             f"Block{number}", [source.assignment(data, words=False), *source.actions(data, 3, words=False)]
         )
-    return charts(source, f"Chart{number}", data, [_datum(source.choices, f"local{number}")])
+    return charts(source, f"Chart{number}", data, [a_datum(source.choices, f"local{number}")])
 
 
 def _some_enabled(choices: Choices, made: list[Component], data: list[list[Var]]) -> list[Component]:

@@ -8,9 +8,9 @@ from jsonschema import Draft202012Validator
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.schemas import published
 from tests.simulink.samples import package_of
-from tests.simulink.writer.packages import WrittenModel
 
 LAMP = """from rovercheck import Chart, State, flag, to
 

@@ -8,9 +8,9 @@ from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.domain import chosen, fixed
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
 
 Draw = Callable[[WrittenChart], object]
 LOG = {"log": "double"}

@@ -7,10 +7,16 @@ from random import Random
 
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import (
+    Node,
+    WrittenChart,
+    WrittenData,
+    WrittenJunction,
+    WrittenState,
+)
+from rovercheck.checker.simulink.writer.dictionaries import dictionary
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.drawn.random_texts import EVENTS, INPUTS, MEMBERS, WHOLE, Language, Texts
-from tests.simulink.writer.charts import Node, WrittenChart, WrittenData, WrittenJunction, WrittenState
-from tests.simulink.writer.dictionaries import dictionary
-from tests.simulink.writer.packages import WrittenModel
 
 PAIR = """function [p, q] = pair(v, w)
 persistent last

@@ -5,9 +5,9 @@ from random import Random
 
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.simulink.model import read_model
-from tests.simulink.writer.dictionaries import dictionary
-from tests.simulink.writer.packages import WrittenModel
-from tests.simulink.writer.systems import WrittenSystem
+from rovercheck.checker.simulink.writer.dictionaries import dictionary
+from rovercheck.checker.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.systems import WrittenSystem
 
 INPUTS = {"u": "int8", "k": "uint8", "on": "boolean", "x": "double"}
 ONE, TWO, THREE = ({"in": n, "out": 1} for n in (1, 2, 3))

@@ -7,8 +7,8 @@ import pytest
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.drawn.test_lowering import both
-from tests.simulink.writer.packages import WrittenModel
 
 
 def telling(folder: Path, mode: str = "", of_state: bool = False, parallel: bool = False) -> ModelRunner:

@@ -7,9 +7,9 @@ import pytest
 
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.symbols import NotLowered
+from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.spec_model.lang.domain import fixed
 from tests.drawn.charts import logged, note, running
-from tests.simulink.writer.charts import WrittenChart
 
 MATLAB: Sequence[tuple[str, Sequence[float], Sequence[float]]] = (
     ("mod(u, -3)", (4, -4, 3), (-2, -1, 0)), ("mod(u, 3)", (4, -4, 3), (1, 2, 0)),

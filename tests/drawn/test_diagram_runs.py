@@ -9,10 +9,10 @@ from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.interpret.values import TRUE
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.systems import WrittenSystem
 from tests.drawn.charts import logged, note, running
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
-from tests.simulink.writer.systems import WrittenSystem
 
 TWO = {"in": 2, "out": 1}
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.simulink.writer.charts import WrittenChart
 from tests.drawn.charts import logged, note, running
-from tests.simulink.writer.charts import WrittenChart
 
 LEAVES = f"{note(1)} E; {note(2)}"
 """An action whose event has the state left, to Z, which notes 3."""

@@ -8,9 +8,9 @@ import pytest
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart
 from tests.drawn.charts import logged, note, running
 from tests.simulink.samples import EXAMPLES
-from tests.simulink.writer.charts import WrittenChart
 
 
 @pytest.mark.parametrize("name", sorted(p.name for p in EXAMPLES.iterdir() if p.is_dir()))

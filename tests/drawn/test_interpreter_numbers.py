@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.simulink.writer.charts import WrittenChart
 from tests.drawn.charts import LOG, logged, running
-from tests.simulink.writer.charts import WrittenChart
 
 ADD = """function [y, calls] = add(x)
 persistent n

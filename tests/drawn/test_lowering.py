@@ -9,11 +9,11 @@ from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.domain import fixed
 from tests.drawn.charts import LOG, note, running
 from tests.drawn.two_readings import Row, compared
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
 
 DOMAINS = {"u": fixed(-10, 10, 1), "v": fixed(-10, 10, 1), "log": fixed(0, 10**7, 1)}
 
@@ -293,3 +293,27 @@ def test_a_state_transition_table_is_entered_at_initialization(tmp_path: Path) -
     model.root.line(block, end)
     runner = ModelRunner(read_model(model.save(tmp_path / "one.slx")))
     assert both(runner, [0, 1, 0], "y") == [2, 3, 3]
+
+
+def test_a_number_is_rounded_to_steps_larger_than_one(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart) -> None:
+        chart.transition(None, chart.state("A\nen, du: log = u + 1;"))
+
+    runner = running(tmp_path, draw)
+    lowered = lowered_model(runner.model, "one.slx", {"u": fixed(0, 20, 1), "log": fixed(0, 100, 5)})
+    run = LoweredRun(lowered)
+    assert [run.step({"u": value})["log"] for value in (0, 1, 2, 13)] == [0, 0, 5, 15]
+
+
+def test_states_that_share_a_junction_count_a_duration_each(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart) -> None:
+        one, other, end = chart.state("A"), chart.state("B"), chart.state("C\nen: log = 1;")
+        shared = chart.junction()
+        chart.transition(None, one)
+        chart.transition(one, shared)
+        chart.transition(one, other, "[u > 5]", 2)
+        chart.transition(other, shared)
+        chart.transition(shared, end, "[duration(u > 0) > 0.2]")
+
+    model = running(tmp_path, draw).model
+    assert compared(model, [{"u": 1}] * 6, domains={"u": fixed(0, 9, 1)}).rows == 6

@@ -9,8 +9,8 @@ from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.drawn.two_readings import Row, compared
-from tests.simulink.writer.packages import WrittenModel
 
 Values = Mapping[str, object]
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.drawn.test_lowering import both
 from tests.drawn.two_readings import compared
-from tests.simulink.writer.packages import WrittenModel
 
 
 def sending(folder: Path, label: str, **more: object) -> ModelRunner:

@@ -8,11 +8,11 @@ import pytest
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenTable
+from rovercheck.checker.simulink.writer.packages import WrittenModel, packed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.drawn.charts import running
 from tests.drawn.test_lowering import both
-from tests.simulink.writer.charts import WrittenChart, WrittenTable
-from tests.simulink.writer.packages import WrittenModel, packed
 
 BANDS = WrittenTable(
     ["LOW: u < 0", "u > 5"], ["TF 1", "FT HIGH", "-- 3,1"], ["r = 1;", "HIGH:\nr = 2;", "r = 7;"]

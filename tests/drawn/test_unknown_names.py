@@ -10,8 +10,8 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.unknown import unknown_names
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.simulink.samples import EXAMPLES
-from tests.simulink.writer.packages import WrittenModel
 
 KNOWN = """function y = f(x)
 persistent k

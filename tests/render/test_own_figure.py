@@ -8,9 +8,9 @@ from rovercheck import simulink_model
 from rovercheck.checker.render.drawing.labels import arrows
 from rovercheck.checker.render.drawing.own_figure import own_picture
 from rovercheck.checker.render.statechart_svg import render
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.chart import Chart
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.packages import WrittenModel
 
 CHARTS = {
     "1_lamp": "Lamp", "2_microwave": "Oven", "3_crossing": "Crossing", "4_smoother": "Smoother",

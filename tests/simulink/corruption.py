@@ -11,9 +11,9 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from zipfile import ZIP_STORED, ZipFile
 
+from rovercheck.checker.simulink.writer.packages import packed
 from tests.simulink.hostile import outcome
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.packages import packed
 
 WORDS = [
     b"<", b">", b"&", b'"', b"]]>", b"<!--", b"<!DOCTYPE a>", b"<![CDATA[", b"&#27;", b"&#x9b;", b"-1",

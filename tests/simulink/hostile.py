@@ -10,9 +10,9 @@ from pathlib import Path
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import DIAGRAM, packed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.samples import SAMPLES
-from tests.simulink.writer.packages import DIAGRAM, packed
 
 ROOT = "simulink/systems/system_root.xml"
 CHART = "simulink/stateflow/chart_22.xml"

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from tests.simulink.writer.charts import WrittenChart, WrittenJunction, WrittenState
-from tests.simulink.writer.dictionaries import dictionary
-from tests.simulink.writer.packages import Layout, WrittenModel
-from tests.simulink.writer.systems import WrittenSystem
+from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenJunction, WrittenState
+from rovercheck.checker.simulink.writer.dictionaries import dictionary
+from rovercheck.checker.simulink.writer.packages import Layout, WrittenModel
+from rovercheck.checker.simulink.writer.systems import WrittenSystem
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "simulink"
 

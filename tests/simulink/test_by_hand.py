@@ -7,12 +7,12 @@ import pytest
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import Layout
 from tests.drawn.two_readings import Row, compared
 from tests.simulink.by_hand.models import ByHand
 from tests.simulink.by_hand.numbers import NUMBERS
 from tests.simulink.by_hand.states import STATES
 from tests.simulink.by_hand.times import TIMES
-from tests.simulink.writer.packages import Layout
 
 MODELS = (*STATES, *TIMES, *NUMBERS)
 LAYOUTS: tuple[Layout, ...] = ("parts", "inline")

@@ -6,10 +6,10 @@ import pytest
 
 from rovercheck.checker.drawn.records import DrawnModel, names_of
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.dictionaries import Names, dictionary
+from rovercheck.checker.simulink.writer.packages import DIAGRAM, Layout, WrittenModel, packed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.samples import SAMPLES
-from tests.simulink.writer.dictionaries import Names, dictionary
-from tests.simulink.writer.packages import DIAGRAM, Layout, WrittenModel, packed
 
 LAYOUTS: tuple[Layout, ...] = ("parts", "single", "inline")
 

@@ -10,12 +10,12 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.simulink import blocks, package, xml
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import DIAGRAM, Files, WrittenModel, packed
 from rovercheck.checker.simulink.xml import parsed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.corruption import damaged
 from tests.simulink.hostile import CHART, ROOT, harmless, lamp, outcome, package_in, refused_parts
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.packages import DIAGRAM, Files, WrittenModel, packed
 
 MANY = 200
 """Random damages of each example; ``python -m tests.simulink.corruption`` tries any number of them."""

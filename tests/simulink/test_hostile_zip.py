@@ -8,8 +8,8 @@ import pytest
 
 from rovercheck.checker.simulink import package
 from rovercheck.checker.simulink.dictionary import MOST_DICTIONARIES
+from rovercheck.checker.simulink.writer.packages import DIAGRAM, WrittenModel, packed
 from tests.simulink.hostile import ROOT, lamp, outcome, package_in, refusal, refused_parts
-from tests.simulink.writer.packages import DIAGRAM, WrittenModel, packed
 
 
 def test_a_part_that_unpacks_to_too_much_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,11 +13,11 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.drawn.refused import BLOCKS, DrawingNote, notes_of
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenJunction
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.cli.test_widths import at_terminal, too_long
 from tests.schemas import published
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.charts import WrittenJunction
-from tests.simulink.writer.packages import WrittenModel
 
 DRAWN = Draft202012Validator(published("import-1"))
 

@@ -9,11 +9,11 @@ import pytest
 
 from rovercheck.checker.drawn.records import DrawnChart, DrawnModel, DrawnState
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import DIAGRAM, Layout, WrittenModel
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.outline import chart_lines, outline
 from tests.simulink.samples import SAMPLES, package_of, write_beside
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import DIAGRAM, Layout, WrittenModel
 
 OUTLINES = Path(__file__).parent / "outlines"
 LAYOUTS: tuple[Layout, ...] = ("parts", "single", "inline")

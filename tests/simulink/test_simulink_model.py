@@ -15,10 +15,10 @@ from rovercheck.checker.model import drawn
 from rovercheck.checker.model.two_readings import ReadingDifference, Readings
 from rovercheck.checker.results.verdict import Proved, Violated
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.domain import Domain, fixed
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.samples import SAMPLES, package_of
-from tests.simulink.writer.packages import WrittenModel
 
 QUARTERS = fixed(-100, 100, "0.25")
 SUMS = fixed(-100_000, 100_000, "0.25")

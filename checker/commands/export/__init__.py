@@ -18,7 +18,7 @@ from rovercheck.checker.commands.shared.options import VariantOptions, modelling
     default="aiger",
     show_default=True,
     metavar="FORMAT",
-    help="aiger, aag, btor2, smv or promela.",
+    help="aiger, aag, btor2, smv or promela, or slx: the charts of a system for Simulink.",
 )
 @modelling
 @varying
@@ -27,7 +27,14 @@ from rovercheck.checker.commands.shared.options import VariantOptions, modelling
 def export(
     ids: tuple[str, ...], about: tuple[str, ...], format: str, charts: VariantOptions, output: Path | None
 ) -> Exit:
-    """Write properties for other model checkers: a file, or a folder of them."""
+    """Write properties for other model checkers: a file, or a folder of them.
+
+    With --format slx, write the charts of the system that --system names as a model of Simulink.
+    """
+    if format == "slx":
+        from rovercheck.checker.commands.export.simulink import export_simulink
+
+        return export_simulink(ids, about, charts.variant(), output)
     from rovercheck.checker.commands.export.run import export as run
 
     return run(ids, about, format, charts.variant(), output)

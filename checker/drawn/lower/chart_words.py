@@ -34,7 +34,7 @@ class WordWriter(ActiveStateWriter):
         super().__init__(chart, view, table, writer, named, data_names)
         self.times = ChartTimes(chart.drawn.path, step, table, writer)
         self._most: int | None = None
-        self._conditions: dict[str, tuple[StateNode, Callable[[], Expr]]] = {}
+        self._conditions: dict[tuple[str, int], tuple[StateNode, Callable[[], Expr]]] = {}
         self._starts: dict[str, SymbolicScalar] = {}
 
     def value(self, expression: Expression, scope: TextScope) -> Symbolic:
@@ -90,7 +90,7 @@ class WordWriter(ActiveStateWriter):
 
     def _held(self, operator: Expression, condition: Expression, scope: TextScope) -> Expr:
         what, plain = self.times.name_of(operator), self._scope(scope.node)
-        self._conditions[what] = scope.node, lambda: self.condition(condition, plain)
+        self._conditions[what, id(scope.node)] = scope.node, lambda: self.condition(condition, plain)
         most, self._most = self._most, None
         holds = self.condition(condition, scope)
         self._most = most

@@ -141,7 +141,7 @@ class DataTable:
                 var.name, f"{var.name} is rounded to the nearest multiple of {float(new):g} in every step."
             )
         steps = nearest_of(folded(value / new))
-        return rescale(folded(steps * new), Num(new))
+        return rescale(folded(steps * Const(1, Num(new))), Num(new))
 
     def kind_of(self, name: str) -> tuple[str, int, int] | None:
         """The type, rows and columns that a datum without a type was seen to have."""

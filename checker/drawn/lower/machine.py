@@ -87,7 +87,7 @@ class ChartWriter(TransitionWriter):
             if one.activity_of is not None:
                 self.table.write(self.writer, single_of(self.cells[one.ssid]), self._activity(one))
         by_node: dict[str, dict[str, Callable[[], Expr]]] = {}
-        for what, (node, condition) in self._conditions.items():
+        for (what, _), (node, condition) in self._conditions.items():
             by_node.setdefault(node.path, {})[what] = condition
         for node in self.chart.root.every():
             self.times.end(node, self._is_timed(node), by_node.get(node.path, {}))

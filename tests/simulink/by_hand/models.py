@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 Given = Iterable[int]
 Simulation = Callable[[Given], Iterator[tuple[float, ...]]]

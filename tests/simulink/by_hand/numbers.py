@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.simulink.by_hand.models import ByHand, Given, Told, one_chart, tell
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.packages import WrittenModel
 
 _KINDS = {"a": "uint8", "b": "int8", "q": "int16"}
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
+from rovercheck.checker.simulink.writer.charts import WrittenChart
 from tests.simulink.by_hand.models import ByHand, Given, Told, one_chart, tell
-from tests.simulink.writer.charts import WrittenChart
 
 
 def _order(c: WrittenChart) -> None:

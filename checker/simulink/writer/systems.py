@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 from xml.etree.ElementTree import Element
 
-from tests.simulink.writer.charts import WrittenChart, WrittenData, WrittenEvent
-from tests.simulink.writer.elements import Values, below, made, put
+from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenData, WrittenEvent
+from rovercheck.checker.simulink.writer.elements import Values, below, made, put
 
 Counts: TypeAlias = Mapping[str, int]
 """How many ports of each kind a block has."""

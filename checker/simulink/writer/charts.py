@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Literal, TypeAlias, TypeVar, Union
 
-from tests.simulink.writer.elements import Values
+from rovercheck.checker.simulink.writer.elements import Values
 
 SCOPES = {
     "input": "INPUT_DATA", "output": "OUTPUT_DATA", "local": "LOCAL_DATA", "constant": "CONSTANT_DATA",

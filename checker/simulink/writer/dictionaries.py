@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 from xml.etree.ElementTree import Element, SubElement
 
-from tests.simulink.writer.elements import below, made, put, xml_of
-from tests.simulink.writer.packages import packed
+from rovercheck.checker.simulink.writer.elements import below, made, put, xml_of
+from rovercheck.checker.simulink.writer.packages import packed
 
 Members: TypeAlias = Mapping[str, int]
 Fields: TypeAlias = Sequence[tuple[str, str, str]]

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from tests.simulink.writer.charts import (
+from rovercheck.checker.simulink.writer.charts import (
     WrittenChart,
     WrittenElement,
     WrittenJunction,

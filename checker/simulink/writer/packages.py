@@ -7,10 +7,10 @@ from typing import Literal, TypeAlias
 from xml.etree.ElementTree import Element
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from tests.simulink.writer.chart_parts import ChartXml
-from tests.simulink.writer.charts import WrittenChart
-from tests.simulink.writer.elements import Values, below, made, put, xml_of
-from tests.simulink.writer.systems import Parts, WrittenSystem
+from rovercheck.checker.simulink.writer.chart_parts import ChartXml
+from rovercheck.checker.simulink.writer.charts import WrittenChart
+from rovercheck.checker.simulink.writer.elements import Values, below, made, put, xml_of
+from rovercheck.checker.simulink.writer.systems import Parts, WrittenSystem
 
 Layout = Literal["parts", "single", "inline"]
 """One part for each chart and system, one for all charts, or everything in that of the diagram."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from tests.simulink.writer.charts import (
+from rovercheck.checker.simulink.writer.charts import (
     WrittenChart,
     WrittenData,
     WrittenElement,
@@ -13,8 +13,8 @@ from tests.simulink.writer.charts import (
     WrittenTable,
     WrittenTransition,
 )
-from tests.simulink.writer.elements import Values, below, made, put
-from tests.simulink.writer.layout import ChartLayout
+from rovercheck.checker.simulink.writer.elements import Values, below, made, put
+from rovercheck.checker.simulink.writer.layout import ChartLayout
 
 KINDS = (WrittenState, WrittenData, WrittenEvent, WrittenTransition, WrittenJunction)
 """The order in which elements of one level stand in a file."""
