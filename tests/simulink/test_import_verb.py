@@ -204,3 +204,23 @@ def test_an_example_is_told_without_a_word_cut(columns: int) -> None:
     assert {"Actuation/Valve", "LEVEL_LOST", "taken_ms", "(uint32).", "transitions"} <= {
         word.strip(":,") for word in seen.split()
     }
+
+
+def test_strictly_nothing_is_read_with_a_note_or_without_its_domain(tmp_path: Path) -> None:
+    package = str(package_of("2_microwave"))
+    assert run(["import", package, "--strict"]) == Exit.AS_EXPECTED
+    for file in package_of("5_tank").parent.iterdir():
+        if file.is_file() and not file.name.endswith(".domains.toml"):
+            (tmp_path / file.name).write_bytes(file.read_bytes())
+    tank = tmp_path / "tank.slx"
+    assert run(["import", str(tank)]) == Exit.AS_EXPECTED
+    assert run(["import", str(tank), "--strict"]) == Exit.INCONCLUSIVE
+    model = WrittenModel("one", step="0.1")
+    _, chart = model.root.chart("C")
+    chart.data("y", "output", "double")
+    a, b = chart.state("A"), chart.state("B")
+    chart.transition(None, a)
+    chart.transition(a, b, "after(0.25, sec)")
+    told = str(model.save(tmp_path / "one.slx"))
+    assert run(["import", told]) == Exit.AS_EXPECTED
+    assert run(["import", told, "--strict"]) == Exit.INCONCLUSIVE

@@ -37,9 +37,19 @@ FILE = click.Path(path_type=Path)
     "follow from the file, to be corrected.",
 )  # fmt: skip
 @click.option("--force", is_flag=True, help="With --propose-domains: also where that file is there.")
+@click.option(
+    "--strict", is_flag=True,
+    help="Exit code 2 also where something is read only with a note, or needs a domain.",
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="All that was read, as JSON.")
 def import_(
-    model: Path, beside: tuple[Path, ...], log: Path | None, propose: bool, force: bool, as_json: bool
+    model: Path,
+    beside: tuple[Path, ...],
+    log: Path | None,
+    propose: bool,
+    force: bool,
+    strict: bool,
+    as_json: bool,
 ) -> Exit:
     """Say what is drawn in a file of Simulink: charts, blocks, types, events, timers; without MATLAB.
 
@@ -48,10 +58,10 @@ def import_(
     if model.suffix == ".scxml":  # what reads either is loaded only then
         from rovercheck.checker.commands.import_.machine import import_machine
 
-        return import_machine(model, bool(beside or log or propose or as_json))
+        return import_machine(model, bool(beside or log or propose or as_json or strict))
     from rovercheck.checker.commands.import_.propose import propose_domains
     from rovercheck.checker.commands.import_.run import import_model
 
     if propose:
         return propose_domains(model, beside, force)
-    return import_model(model, beside, log, as_json)
+    return import_model(model, beside, log, strict=strict, as_json=as_json)

@@ -14,7 +14,9 @@ from rovercheck.spec_model.lang.lower import lower
 def import_machine(path: Path, others: bool) -> Exit:
     """Read a machine, and say what is in it.  Raises ``ModelError`` for one that cannot be read."""
     if others:
-        raise UsageError("--beside, --compare, --propose-domains and --json are for models of Simulink.")
+        raise UsageError(
+            "--beside, --compare, --propose-domains, --strict and --json are for models of Simulink."
+        )
     machine = read_scxml(path)
     kinds = [one.kind for one in machine.states]
     moves = sum(len(one.transitions) for one in machine.states)

@@ -26,8 +26,13 @@ MOST_SHOWN = 5
 _TIMERS = re.compile(r"\b(?:after|before|at|every|temporalCount|elapsed|duration|count)\s*\(")
 
 
-def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: bool) -> Exit:
-    """Read a model, and say what is in it.  Raises ``ModelError`` for a file that cannot be read."""
+def import_model(
+    path: Path, beside: Sequence[Path], log: Path | None, *, strict: bool, as_json: bool
+) -> Exit:
+    """Read a model, and say what is in it; ``strict``: what is read with a note is not as expected.
+
+    Raises ``ModelError`` for a file that cannot be read.
+    """
     model = read_model(path, [*read_domains(domains_path(path)).beside, *beside])
     notes = list(notes_of(model))
     for chart in map(parsed_chart, model.charts):
@@ -35,7 +40,9 @@ def import_model(path: Path, beside: Sequence[Path], log: Path | None, as_json: 
     compared = None if log is None else compared_with(model, log)
     lowering = None if any(note.kind == "refused" for note in notes) else lowering_of(path, model)
     code = Exit.INCONCLUSIVE if any(note.kind == "refused" for note in notes) else Exit.AS_EXPECTED
-    if lowering is not None and lowering.refused:
+    if lowering is not None and (lowering.refused or (strict and (lowering.needed or lowering.notes))):
+        code = Exit.INCONCLUSIVE
+    if strict and notes:
         code = Exit.INCONCLUSIVE
     if compared is not None and compared.differences:
         code = Exit.FAILED
