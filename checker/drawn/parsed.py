@@ -270,6 +270,12 @@ class _Parser:
                 except GrammarError as error:
                     self._note(holder.path, f"the truth table {state.name}", error, state.ssid, state.line)
                     return
+        if signature.name in holder.functions:
+            text = f"another function beside it, or in a box, is called {signature.name}: give each its own name."
+            what = f"the function {signature.name}"
+            self._notes.append(
+                DrawingNote("refused", holder.path, what, text, self._chart.part, state.ssid, state.line)
+            )
         holder.functions[signature.name] = FunctionNode(state, signature, holder, script, flow, data)
 
     def _table(self, flow: StateNode, state: DrawnState, table: DrawnTruthTable) -> dict[str, DrawnData]:

@@ -230,6 +230,18 @@ def test_a_function_call_of_other_blocks_is_refused(tmp_path: Path) -> None:
         logged(running(tmp_path, draw), [0])
 
 
+def test_functions_of_one_name_in_two_boxes_are_refused(tmp_path: Path) -> None:
+    """The last one silently took the place of the other."""
+
+    def draw(c: WrittenChart) -> None:
+        for name, value in (("One", 1), ("Two", 2)):
+            c.function("y = f()", c.state(name, box=True), script=f"function y = f()\ny = {value};\nend\n")
+        c.transition(None, c.state("A\nen: log = f();"))
+
+    with pytest.raises(DrawnFault, match=r"the function f .*: another function beside it, or in a box"):
+        running(tmp_path, draw)
+
+
 def test_a_name_in_a_box_that_there_is_around_it_is_refused(tmp_path: Path) -> None:
     """What had the name around the box read and wrote the datum in it."""
 
