@@ -271,8 +271,9 @@ class _Parser:
                     self._note(holder.path, f"the truth table {state.name}", error, state.ssid, state.line)
                     return
         if signature.name in holder.functions:
-            text = f"another function beside it, or in a box, is called {signature.name}: give each its own name."
-            what = f"the function {signature.name}"
+            name = signature.name
+            what = f"the function {name}"
+            text = f"another function beside it, or in a box, is called {name}: give each its own name."
             self._notes.append(
                 DrawingNote("refused", holder.path, what, text, self._chart.part, state.ssid, state.line)
             )
