@@ -9,6 +9,7 @@ from rovercheck import check, scxml_model
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.explore.by_hand.next_steps import StepFinder
 from rovercheck.checker.results.verdict import Proved
 from rovercheck.checker.scxml.interpret import MachineRunner
 from rovercheck.checker.scxml.reader import machine_of
@@ -176,3 +177,20 @@ def test_a_datum_that_is_computed_needs_a_domain(tmp_path: Path) -> None:
         scxml_model(file)
     (tmp_path / "count.domains.toml").write_text("[domains]\nn = { low = 0, high = 9 }\n", encoding="utf-8")
     assert str(scxml_model(file)["n"]) == "n"
+
+
+# --- other verbs -------------------------------------------------------------------------------------------
+
+
+def test_a_machine_is_not_written_for_simulink_without_its_program(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "door.slx"
+    line = ["export", "--system", "Door", "--format", "slx", "-o", str(out), "--model", str(DOOR)]
+    assert run(line) == Exit.USAGE
+    assert "its step is a program" in " ".join(capsys.readouterr().err.split()) and not out.exists()
+
+
+def test_next_steps_of_a_machine_are_refused_in_a_message() -> None:
+    with pytest.raises(ModelError, match="Door was read from a file, and what it can do next is not listed"):
+        StepFinder(scxml_model(DOOR).system)

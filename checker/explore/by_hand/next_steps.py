@@ -19,11 +19,13 @@ from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.system.live_variables import live_before
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.fired_transition import path_label
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
 
@@ -119,7 +121,10 @@ class _Part:
 
 @dataclass
 class StepFinder:
-    """Finds the possible next steps of one system, from any state of it; for one thread at a time."""
+    """Finds the possible next steps of one system, from any state of it; for one thread at a time.
+
+    Raises ``ModelError`` for a chart that was read from a file: its transitions are those of its program.
+    """
 
     system: System
     _lowered: TransitionSystem = field(init=False)
@@ -132,6 +137,11 @@ class StepFinder:
             flags.setdefault(goal.part, {})[goal.id.rpartition(".")[2]] = goal.flag.name
         self._parts = []
         for chart in self.system.charts:
+            if isinstance(chart, ProgrammedChart):
+                raise ModelError(
+                    f"{chart.name} was read from a file, and what it can do next is not listed; write step, "
+                    "or reach CONDITION."
+                )
             transitions = ChartTransitions(chart)
             named = {flags[chart.name][str(s.number)]: s for s in transitions.segments}
             self._parts.append(_Part(chart, named, transitions))

@@ -18,6 +18,7 @@ from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.domain import Bool, Domain, Num, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import TRUE, Var
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from rovercheck.spec_model.lang.system import System, enabled_in
 from rovercheck.spec_model.lang.wellformed import check_system
 
@@ -70,6 +71,12 @@ class _SystemWriter:
 
     def __init__(self, system: System, prefix: str) -> None:
         self.system = system
+        for chart in system.charts:
+            if isinstance(chart, ProgrammedChart):
+                raise ModelError(
+                    f"{system.name}: {chart.name} was read from a file, and its step is a program that no "
+                    "chart of Stateflow has; write aiger, aag, btor2, smv or promela with --format."
+                )
         for one in enabled_in(system.components):
             inside = ", ".join(part.name for part in parts(one.components))
             raise ModelError(
