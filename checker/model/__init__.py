@@ -15,6 +15,7 @@ from rovercheck.properties.hazards import Hazard
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.system import System, charts_of
 
 SIMULINK = ".slx"
@@ -32,6 +33,13 @@ class ForeignModel:
     def system(self) -> System:
         """The system that properties are about."""
         raise TypeError(f"{type(self).__name__} says no system.")
+
+
+def beside_caller(path: str | Path, caller: Place | None) -> Path:
+    """A path as a file writes it that asks for it: from its own folder, if something is there."""
+    whole = Path(path)
+    beside = whole if caller is None else Path(caller.file).parent / whole  # an absolute one stays as it is
+    return beside if beside.exists() else whole
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
-from rovercheck.checker.model import SIMULINK, ForeignModel
+from rovercheck.checker.model import SIMULINK, ForeignModel, beside_caller
 from rovercheck.checker.model.two_readings import compared_readings
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart
@@ -99,10 +99,7 @@ def simulink_model(path: str | Path) -> SimulinkModel:
     Domains of inputs are read from ``NAME.domains.toml`` beside it.  Raises ``ModelError`` for what cannot be
     read, or has no meaning here.
     """
-    whole, place = Path(path), here(__name__)
-    if not whole.is_absolute() and place is not None and (Path(place.file).parent / whole).exists():
-        whole = Path(place.file).parent / whole
-    return read_simulink(whole)
+    return read_simulink(beside_caller(path, here(__name__)))
 
 
 def read_simulink(path: Path) -> SimulinkModel:

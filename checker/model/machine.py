@@ -9,7 +9,7 @@ from time import monotonic
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
-from rovercheck.checker.model import SCXML, ForeignModel
+from rovercheck.checker.model import SCXML, ForeignModel, beside_caller
 from rovercheck.checker.scxml.interpret import MachineRunner
 from rovercheck.checker.scxml.reader import read_scxml
 from rovercheck.checker.scxml.records import StateMachine
@@ -67,10 +67,7 @@ def scxml_model(path: str | Path) -> ScxmlModel:
     Domains of data are read from ``NAME.domains.toml`` beside it.  Raises ``ModelError`` for what cannot be
     read, or has no meaning here.
     """
-    whole, place = Path(path), here(__name__)
-    if not whole.is_absolute() and place is not None and (Path(place.file).parent / whole).exists():
-        whole = Path(place.file).parent / whole
-    return read_machine(whole)
+    return read_machine(beside_caller(path, here(__name__)))
 
 
 def read_machine(path: Path) -> ScxmlModel:
@@ -101,8 +98,8 @@ def lowered_scxml(path: Path, machine: StateMachine) -> ScxmlModel:
     except ModelError as error:
         raise ModelError(f"{path.name}: {error}") from error
     notes = list(lowered.system.notes)
-    difference, said_so, _ = compared(lowered)
-    if difference and not (said_so and said.domains):
+    difference, limited, _ = compared(lowered)
+    if difference and not (limited and said.domains):
         raise ModelError(
             f"{path.name}: the two ways in which it is read differ {difference}. This is an error of "
             "rovercheck: please report it, with the file."
@@ -123,8 +120,8 @@ def _fitting(file: Path, name: str, domain: Domain, machine: StateMachine) -> No
 
 
 def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bool, int]:
-    """Both readings on random events: where they differ first, whether only one says that a step has no
-    meaning, and how many steps they were compared in.
+    """Both readings on random events: where they differ first, whether only the system says that a step has
+    no meaning, as a value is outside a domain, and how many steps they were compared in.
     """
     random, end, steps = Random(1), monotonic() + seconds, 0
     events = ("", *lowered.machine.offered)
@@ -148,19 +145,19 @@ def _step(
     lowered: LoweredMachine, direct: MachineRunner, system: Interpreter, event: str
 ) -> tuple[str, bool] | None:
     """One step of both; nothing where neither gives it a meaning."""
-    faults = list[str]()
+    of_standard = of_system = ""
     try:
         direct.step(event)
     except DrawnFault as fault:
-        faults.append(f"the algorithm of the standard says: {fault}")
+        of_standard = f"the algorithm of the standard says: {fault}"
     try:
         system.step({"event": lowered.event.domain.raw(event or "none")})
     except ModelError as error:
-        faults.append(f"the system says: {error}")
-    if len(faults) == 2:
+        of_system = f"the system says: {error}"
+    if of_standard and of_system:
         return None
-    if faults:
-        return faults[0].rstrip("."), True
+    if of_standard or of_system:
+        return (of_standard or of_system).rstrip("."), bool(of_system)
     at, [chart] = system.valuation(), lowered.system.charts
     states = [one for one in lowered.machine.states if one.kind != "history"]
     other = {one.id for one in states if evaluate(chart.active_path(lowered.view.paths[one]), at)}

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from math import gcd
 from pathlib import Path
 
+from rovercheck.checker.io.bounded import bounded_bytes
 from rovercheck.checker.scxml.content import ContentReader
 from rovercheck.checker.scxml.records import (
     OTHER,
@@ -43,14 +44,7 @@ _EVENT = re.compile(r"[A-Za-z_][\w:-]*(?:\.[\w:-]+)*(?:\.\*|\.)?|\*")
 
 def read_scxml(path: Path) -> StateMachine:
     """The machine in a file.  Raises ``ModelError`` for what cannot be read or has no meaning, with lines."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(LARGEST + 1)
-    except OSError as error:
-        raise ModelError(f"{path}: {error.strerror}.") from error
-    if len(data) > LARGEST:
-        raise ModelError(f"{path.name}: it is larger than {LARGEST >> 20} MiB, and is not read. Split it.")
-    return machine_of(data, path.name)
+    return machine_of(bounded_bytes(path, LARGEST, "Name a machine in SCXML."), path.name)
 
 
 def machine_of(data: bytes, place: str) -> StateMachine:
@@ -72,7 +66,6 @@ class _Reader:
                 f"{self.place}, line {self.root.line}: <{brief(_tag(self.root))}> is no machine; the "
                 "outermost element of SCXML is <scxml>."
             )
-        self._stop()
         top = MachineState("", "state", None, 0, self.root.line)
         self._level(top, self.root)
         if not top.children:
@@ -110,7 +103,7 @@ class _Reader:
 
     def _level(self, state: MachineState, element: XmlElement) -> None:
         self.elements.append((state, element))
-        if state is not None and state.parent is None:
+        if state.parent is None:
             model = element.attributes.get("datamodel", "null")
             if model not in ("null", "ecmascript"):
                 self._fault(

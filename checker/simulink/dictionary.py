@@ -7,6 +7,7 @@ from itertools import dropwhile, takewhile
 from pathlib import Path
 
 from rovercheck.checker.drawn.records import DrawnBus, DrawnElement, DrawnEnumeration, DrawnParameter
+from rovercheck.checker.io.bounded import bounded_bytes
 from rovercheck.checker.simulink.assignments import assignments
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
@@ -74,14 +75,7 @@ class Definitions:
 
     def read_text(self, path: Path) -> None:
         """A class of an enumeration, or a script of assignments.  Raises ``ModelError``."""
-        try:
-            with path.open("rb") as opened:
-                data = opened.read(MOST_TEXT + 1)
-        except OSError as error:
-            raise ModelError(f"{path}: {error.strerror}. Name a file of MATLAB.") from error
-        if len(data) > MOST_TEXT:
-            raise ModelError(f"{path}: more than {MOST_TEXT >> 20} MiB of a script are not read.")
-        text = data.decode("utf-8", errors="replace")
+        text = bounded_bytes(path, MOST_TEXT, "Name a file of MATLAB.").decode("utf-8", errors="replace")
         self.files.append(str(path))
         if found := _CLASS.search(text):
             self.enumerations[found[1]] = _enumeration_class(found[1], found[2], text, path)

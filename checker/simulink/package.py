@@ -7,6 +7,7 @@ from pathlib import Path, PurePosixPath
 from struct import error as StructError
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, LargeZipFile, ZipFile, ZipInfo
 
+from rovercheck.checker.io.bounded import bounded_bytes
 from rovercheck.checker.io.printable import one_line
 from rovercheck.checker.simulink.xml import MOST_ELEMENTS, XmlElement, parsed
 from rovercheck.spec_model.lang.errors import ModelError
@@ -34,13 +35,7 @@ class SimulinkPackage:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._left = MOST_BYTES
-        try:
-            with path.open("rb") as file:
-                data = file.read(MOST_BYTES + 1)
-        except OSError as error:
-            raise ModelError(f"{path}: {error.strerror}. Name a file of Simulink, .slx or .sldd.") from error
-        if len(data) > MOST_BYTES:
-            raise ModelError(f"{path}: more than {MOST_BYTES >> 20} MiB are not read.")
+        data = bounded_bytes(path, MOST_BYTES, "Name a file of Simulink, .slx or .sldd.")
         self._elements = MOST_ELEMENTS
         if data.count(ENTRY) > MOST_PARTS:  # before there is an object for each
             raise ModelError(f"{path}: more than {MOST_PARTS:,} parts in one package are not read.")

@@ -87,6 +87,39 @@ def test_an_order_that_decides_is_no_failure(tmp_path: Path, capsys: pytest.Capt
     assert "their order decides." in said and "state Locked is never left" in said and "✗" not in said
 
 
+TWO_REGIONS = """from rovercheck import Chart, State, flag, to
+
+go, halt = flag("go"), flag("halt")
+OUT, ON = to("Halted", when=halt), to("B2", when=go)
+both = Chart(
+    "Both",
+    [
+        State(
+            "Run",
+            states=[
+                State("A", states=[State("A1", transitions=[to("A2", when=go)]), State("A2")], default="A1"),
+                State("B", states=[State("B1", transitions=[OUT, ON]), State("B2")], default="B1"),
+            ],
+            parallel=True,
+        ),
+        State("Halted"),
+    ],
+    default="Run",
+)
+"""
+
+
+def test_a_state_is_left_by_a_transition_of_another_region(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A2 was told as never left, as no transition begins in it or around it."""
+    file = tmp_path / "both.py"
+    file.write_text(TWO_REGIONS, encoding="utf-8")
+    assert run(["lint", "--model", str(file), "--json"]) == Exit.AS_EXPECTED
+    rows = json.loads(capsys.readouterr().out)["findings"]
+    assert [row["what"] for row in rows if row["kind"] == "way out"] == ["Run.B.B2", "Halted"]
+
+
 def test_conditions_of_imported_charts_that_always_hold_are_told(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

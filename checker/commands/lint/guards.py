@@ -58,7 +58,7 @@ def without_way_out(system: System) -> Iterator[LintRow]:
         for path in filter(None, chart.states):
             around = [path[:depth] for depth in range(1, len(path) + 1)]
             leaf, chosen = not chart.states[path].states, any(_has_rivals(chart, one) for one in around)
-            if leaf and chosen and not any(_left(chart, one) for one in around):
+            if leaf and chosen and not any(_left(chart, one) or _left_beside(chart, one) for one in around):
                 yield LintRow(
                     system=system.name, chart=chart.name, kind="way out", what=".".join(path),
                     found="never", evidence="no transition leaves it, or a state around it",
@@ -69,6 +69,25 @@ def _left(chart: Chart, path: Path) -> bool:
     """Whether a transition leaves a state, its own or one inside the state around it."""
     inner = chart.inner.get(path[:-1], ()) if isinstance(chart, ProgrammedChart) else ()
     return bool(chart.states[path].transitions or inner)
+
+
+def _left_beside(chart: Chart, path: Path) -> bool:
+    """Whether a transition in another region may leave the parallel state that a region is in.
+
+    One that ends in a junction may.
+    """
+    around = path[:-1]
+    if not around or not chart.states[around].parallel:
+        return False
+    inner = chart.inner if isinstance(chart, ProgrammedChart) else {}
+    for source, state in chart.states.items():
+        if source[: len(around)] != around or source[: len(path)] in (around, path):
+            continue
+        for one in (*state.transitions, *inner.get(source, ())):
+            target = chart.resolve(source[:-1], one.target)
+            if target is None or target in chart.junctions or target[: len(around)] != around:
+                return True
+    return False
 
 
 def _has_rivals(chart: Chart, path: Path) -> bool:

@@ -49,13 +49,16 @@ def lint(names: Sequence[str], seconds: float | None, as_json: bool, path: Path 
     again = {prop.id: told[of] for of, prop in guards.again.items() if told[of]["found"] == "never"}
     asked_again = [prop for prop in guards.again.values() if prop.id in again]
     for result in results(asked_again, guards.systems, search, quiet=as_json) if asked_again else ():
+        row = again[result.property.id]
         if isinstance(result.verdict, Violated):  # it is never tested, which its transition tells
-            again[result.property.id]["found"] = "happens"
+            row["found"] = "happens"
+        elif not isinstance(result.verdict, Proved):
+            row["found"], row["evidence"] = "unknown", evidence(result)
     rows = [row for row in questions.values() if row["found"] != "happens"]
     rows += [row for row in told.values() if row["found"] in _WORTH[row["kind"]]]
-    never = {(row["chart"], row["what"]) for row in rows if row["kind"] == "state"}
+    never = {(row["system"], row["chart"], row["what"]) for row in rows if row["kind"] == "state"}
     ends = (row for system in chosen.values() for row in without_way_out(system))
-    rows += [row for row in ends if (row["chart"], row["what"]) not in never]
+    rows += [row for row in ends if (row["system"], row["chart"], row["what"]) not in never]
     summaries = [_summary(name, [row for _, row in asked[name]]) for name in chosen]
     code = _code(rows)
     if as_json:

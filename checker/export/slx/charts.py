@@ -1,9 +1,11 @@
 """A chart as a region of the chart that is written: its states, junctions, transitions and actions."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from rovercheck.checker.export.slx.actions import ActionWriter, event_name
 from rovercheck.checker.export.slx.formulas import FormulaWriter
+from rovercheck.checker.export.slx.names import SlxNames
 from rovercheck.checker.export.slx.words import ChartWords
 from rovercheck.checker.simulink.writer.charts import (
     WrittenChart,
@@ -24,7 +26,7 @@ class ChartWriter:
         self.chart, self.into, self.formulas, self.words = chart, into, formulas, words
         self.actions = ActionWriter(formulas, chart, words.of(None))
         self.nodes: dict[Path, WrittenState] = {}
-        self.orders: dict[int, int] = {}
+        self._orders = Counter[object]()
         self._junctions: dict[tuple[Path, Path, Path | None], WrittenJunction] = {}
         self._timed = {path: self._leads_to_counters(path, set()) for path in chart.junctions}
 
@@ -81,9 +83,9 @@ class ChartWriter:
         else:
             end, scope = self.nodes[target], _scope(level, target)
         holder = self.nodes[scope]
-        key = id(node) if node is not None else id(holder) + 1
-        self.orders[key] = self.orders.get(key, 0) + 1
-        self.into.transition(node, end, self._text(one, source), self.orders[key], holder)
+        begins = ("default", id(holder)) if node is None else id(node)
+        self._orders[begins] += 1
+        self.into.transition(node, end, self._text(one, source), self._orders[begins], holder)
 
     def _text(self, one: Transition, source: Path | None) -> str:
         text = ""
@@ -131,13 +133,9 @@ class ChartWriter:
         if not lines:
             return
         holder, node = self.nodes[path[:-1]], self.nodes[path]
-        for one in holder.children:
+        for one in (child for each in self.nodes.values() for child in each.children):
             if isinstance(one, WrittenTransition) and one.source is node:
                 one.order += 1
-        for other in {id(n): n for n in self.nodes.values() if n is not holder}.values():
-            for one in other.children:
-                if isinstance(one, WrittenTransition) and one.source is node:
-                    one.order += 1
         junction = self.into.junction(holder)
         self.into.transition(node, junction, "{" + "\n".join(lines) + "}", 1, holder)
         self.into.transition(junction, node, "[false]", 1, holder)
@@ -185,8 +183,6 @@ def _scope(level: Path, target: Path) -> Path:
 
 def state_names(charts: Sequence[Chart]) -> dict[tuple[str, Path], str]:
     """The names of all states in the chart that is written, by their chart and path."""
-    from rovercheck.checker.export.slx.names import SlxNames
-
     top, found, levels = SlxNames(), dict[tuple[str, Path], str](), dict[str, SlxNames]()
     for chart in charts:
         for path in chart.states:
