@@ -1,7 +1,7 @@
 """Block diagrams: systems of blocks with their parameters, and the signals between their ports."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnLine, DrawnSystem, path_of
 from rovercheck.checker.simulink.package import SimulinkPackage
@@ -25,10 +25,15 @@ MOST_LEVELS = 64
 class DiagramReader:
     """Reads the systems of a package, each once: a system that holds itself is refused."""
 
-    def __init__(self, package: SimulinkPackage) -> None:
+    def __init__(
+        self, package: SimulinkPackage, defaults: Mapping[str, Mapping[str, str]] | None = None
+    ) -> None:
         self._package = package
+        self._defaults = defaults or {}
         self._read: set[str] = set()
         self._letters = MOST_LETTERS
+        self.commented: list[str] = []
+        """The paths of blocks that are commented out, which are left out with their signals."""
 
     def root(self, element: XmlElement, part: str) -> DrawnSystem:
         """The diagram of a model, whose element holds or names its system.  Raises ``ModelError``."""
@@ -47,9 +52,12 @@ class DiagramReader:
             )
         if reference is not None:
             return self._referenced(reference, path)
-        blocks = tuple(self._block(one, part, path) for one in element.all("Block"))
-        lines = tuple(line for one in element.all("Line") for line in self._lines(one, part))
-        return DrawnSystem(blocks, lines, part)
+        without = [one for one in element.all("Block") if one.property_of("Commented") == "on"]
+        self.commented += (path_of(*path, one.attributes.get("Name", "")) for one in without)
+        blocks = tuple(self._block(one, part, path) for one in element.all("Block") if one not in without)
+        out = {one.attributes.get("SID", "") for one in without}
+        lines = (line for one in element.all("Line") for line in self._lines(one, part))
+        return DrawnSystem(blocks, tuple(one for one in lines if not {one.source, one.target} & out), part)
 
     def _referenced(self, reference: str, path: tuple[str, ...]) -> DrawnSystem:
         part = f"simulink/systems/{reference}.xml"
@@ -78,7 +86,8 @@ class DiagramReader:
                 f"{MOST_LETTERS:,} letters. No diagram that is drawn has so many."
             )
         system = one.child("System")
-        parameters = {p.attributes.get("Name", ""): p.text for p in one.all("P")}
+        kind = one.attributes.get("BlockType", "")
+        parameters = {**self._defaults.get(kind, {}), **_properties(one)}
         counts = one.child("PortCounts")
         if counts is None:
             parameters |= _ports(parameters.get("Ports", ""))
@@ -87,7 +96,7 @@ class DiagramReader:
         left, top, right, bottom = numbers(parameters.get("Position", ""), 4)
         return DrawnBlock(
             id=one.attributes.get("SID", ""),
-            kind=one.attributes.get("BlockType", ""),
+            kind=kind,
             name=name,
             path=own_path,
             parameters=parameters,
@@ -124,6 +133,16 @@ class DiagramReader:
         return found[1], found[2], found[3] or ""
 
 
+def _properties(one: XmlElement) -> dict[str, str]:
+    return {p.attributes.get("Name", ""): p.text for p in one.all("P")}
+
+
+def defaults_of(model: XmlElement) -> dict[str, dict[str, str]]:
+    """What the blocks of each kind say if they say nothing, where a model writes that down."""
+    every = (one for listed in model.all("BlockParameterDefaults") for one in listed.all("Block"))
+    return {one.attributes.get("BlockType", ""): _properties(one) for one in every}
+
+
 def _signals(block: XmlElement) -> Iterator[tuple[str, str]]:
     """The names of the outputs of a block by number; older releases put the number into a property."""
     for ports in block.all("PortProperties"):
@@ -141,4 +160,4 @@ def _ports(written: str) -> dict[str, str]:
     return {f"ports {kind}": count[0] for kind, count in counts if int(count[0])}
 
 
-__all__ = ["CONTROL", "DiagramReader"]
+__all__ = ["CONTROL", "DiagramReader", "defaults_of"]
