@@ -12,6 +12,7 @@ from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import (
+    TYPES,
     MatlabValue,
     NumberRules,
     Structure,
@@ -158,10 +159,8 @@ class _System:
                 node.outputs = node.system.at_rest()
 
     def _node(self, block: DrawnBlock, wiring: SystemWiring) -> _Node:
-        ports = [int(port) for target, port in wiring.feeds if target == block.id and port.isdigit()]
-        inputs = [wiring.feeds.get((block.id, str(number))) for number in range(1, max(ports, default=0) + 1)]
         self._check(block)
-        node = _Node(block, inputs)
+        node = _Node(block, wiring.inputs_of(block))
         control = [port for target, port in wiring.feeds if target == block.id and not port.isdigit()]
         if control:
             node.control, node.fed = control[0], wiring.feeds[block.id, control[0]]
@@ -266,7 +265,10 @@ class _System:
             if self._runs(node):
                 return node.system.step(values)
             return node.outputs
-        return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
+        try:
+            return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
+        except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
+            raise DrawnFault("its inputs and parameters do not fit each other") from error
 
     @staticmethod
     def _remembered(node: _Node) -> MatlabValue:
@@ -274,7 +276,11 @@ class _System:
         return node.memory
 
     def _values(self, node: _Node) -> list[MatlabValue]:
-        return [double(0) if port is None else self._value(port) for port in node.inputs]
+        """Of its inputs; one that is not connected is 0, in the type of the first that is."""
+        found = [None if port is None else self._value(port) for port in node.inputs]
+        kind = next((one.kind for one in found if one is not None), "double")
+        zero = each_converted(double(0), kind, NumberRules()) if kind in TYPES else double(0)
+        return [zero if one is None else one for one in found]
 
     def _value(self, port: tuple[str, int]) -> MatlabValue:
         node = self._by_id[port[0]]
