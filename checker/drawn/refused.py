@@ -15,6 +15,7 @@ from rovercheck.checker.drawn.records import (
     DrawnSystem,
     DrawnTransition,
 )
+from rovercheck.checker.drawn.type_names import plain_type
 from rovercheck.checker.drawn.wiring import CONTROL
 
 
@@ -140,10 +141,10 @@ def _level(
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:
-    why = ""
+    why, type_ = "", plain_type(one.type)
     if one.message:
         why = "it is a message, with a queue. Use an event, or a datum and a counter"
-    elif "fixdt" in one.type or one.type.startswith(("sfix", "ufix")):
+    elif "fixdt" in type_ or type_.startswith(("sfix", "ufix")):
         why = f"{one.type} is a fixed-point type. Use a type of integers, and scale in the chart"
     elif one.scope == "data store":
         why = "it is a data store, which other blocks write, too. Connect it as an input and an output"

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnLine, DrawnSystem, path_of
+from rovercheck.checker.simulink.masks import VALUES, MaskScope, scope_in, valued
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement, numbers
 from rovercheck.spec_model.lang.errors import ModelError
@@ -34,6 +35,8 @@ class DiagramReader:
         self._letters = MOST_LETTERS
         self.commented: list[str] = []
         """The paths of blocks that are commented out, which are left out with their signals."""
+        self.scopes: dict[str, MaskScope] = {}
+        """The names of masks in which the block of a chart is, and in its own, by its path."""
 
     def root(self, element: XmlElement, part: str) -> DrawnSystem:
         """The diagram of a model, whose element holds or names its system.  Raises ``ModelError``."""
@@ -41,9 +44,9 @@ class DiagramReader:
         if system is None:
             place = self._package.place(part)
             raise ModelError(f"{place}: the model has no <System>. Save the model again in Simulink.")
-        return self._system(system, part, ())
+        return self._system(system, part, (), {})
 
-    def _system(self, element: XmlElement, part: str, path: tuple[str, ...]) -> DrawnSystem:
+    def _system(self, element: XmlElement, part: str, path: tuple[str, ...], scope: MaskScope) -> DrawnSystem:
         reference = element.attributes.get("Ref")
         if len(path) >= MOST_LEVELS:
             raise ModelError(
@@ -51,15 +54,17 @@ class DiagramReader:
                 "each other are read. No diagram that is drawn has so many."
             )
         if reference is not None:
-            return self._referenced(reference, path)
-        without = [one for one in element.all("Block") if one.property_of("Commented") == "on"]
+            return self._referenced(reference, path, scope)
+        drawn, without = list[XmlElement](), list[XmlElement]()
+        for one in element.all("Block"):
+            (without if one.property_of("Commented") == "on" else drawn).append(one)
         self.commented += (path_of(*path, one.attributes.get("Name", "")) for one in without)
-        blocks = tuple(self._block(one, part, path) for one in element.all("Block") if one not in without)
+        blocks = tuple(self._block(one, part, path, scope) for one in drawn)
         out = {one.attributes.get("SID", "") for one in without}
         lines = (line for one in element.all("Line") for line in self._lines(one, part))
         return DrawnSystem(blocks, tuple(one for one in lines if not {one.source, one.target} & out), part)
 
-    def _referenced(self, reference: str, path: tuple[str, ...]) -> DrawnSystem:
+    def _referenced(self, reference: str, path: tuple[str, ...], scope: MaskScope) -> DrawnSystem:
         part = f"simulink/systems/{reference}.xml"
         if part in self._read:
             raise ModelError(
@@ -73,9 +78,9 @@ class DiagramReader:
                 f"{self._package.place(part)}: in place of a system it has the name of another one. Save the "
                 "model again in Simulink."
             )
-        return self._system(system, part, path)
+        return self._system(system, part, path, scope)
 
-    def _block(self, one: XmlElement, part: str, path: tuple[str, ...]) -> DrawnBlock:
+    def _block(self, one: XmlElement, part: str, path: tuple[str, ...], scope: MaskScope) -> DrawnBlock:
         name = one.attributes.get("Name", "")
         within = (*path, name)
         own_path = path_of(*within)
@@ -85,9 +90,15 @@ class DiagramReader:
                 f"{self._package.place(part)}, line {one.line}: the paths of the blocks have more than "
                 f"{MOST_LETTERS:,} letters. No diagram that is drawn has so many."
             )
-        system = one.child("System")
+        system, place = one.child("System"), self._package.place(part)
         kind = one.attributes.get("BlockType", "")
         parameters = {**self._defaults.get(kind, {}), **_properties(one)}
+        for name in VALUES if scope else ():
+            if name in parameters:
+                parameters[name] = valued(parameters[name], scope, place, one.line)
+        inner = scope_in(one, scope, place)
+        if parameters.get("SFBlockType") in CHARTS:
+            self.scopes[own_path] = inner
         counts = one.child("PortCounts")
         if counts is None:
             parameters |= _ports(parameters.get("Ports", ""))
@@ -101,7 +112,7 @@ class DiagramReader:
             path=own_path,
             parameters=parameters,
             signals=dict(_signals(one)),
-            system=None if system is None else self._system(system, part, within),
+            system=None if system is None else self._system(system, part, within, inner),
             chart=own_path if parameters.get("SFBlockType") in CHARTS else "",
             rectangle=(left, top, right - left, bottom - top),
             line=one.line,

@@ -1,6 +1,5 @@
 """What the blocks of a diagram compute from their inputs in a step."""
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import reduce
@@ -276,13 +275,6 @@ BLOCKS: Mapping[str, BlockStep] = {
 }  # fmt: skip
 """What each kind of block gives; those with a memory are executed elsewhere."""
 
-_NAME = re.compile(r"[A-Za-z]\w*")
-
-
-def parameter(text: str, named: Mapping[str, str]) -> str:
-    """A parameter with its name, if it is one, replaced by its value as written."""
-    return named.get(text.strip(), text) if _NAME.fullmatch(text.strip()) else text
-
 
 def parsed_value(text: str) -> Expression:
     """The tree of a parameter.  Raises ``DrawnFault``."""
@@ -292,4 +284,4 @@ def parsed_value(text: str) -> Expression:
         raise DrawnFault(f"the parameter {text!r}: {error}") from error
 
 
-__all__ = ["BLOCKS", "BlockStep", "parameter", "parsed_value", "typed"]
+__all__ = ["BLOCKS", "BlockStep", "parsed_value", "typed"]

@@ -24,6 +24,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.lower.view import plain_name
+from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 from rovercheck.checker.drawn.wiring import Port, SystemWiring, number_of, wired
 from rovercheck.spec_model.lang.chart import Block, Component
@@ -65,10 +66,11 @@ class WiredBlocks:
         control = [port for target, port in feeds if target == block.id and not port.isdigit()]
         if control:
             node.control, node.fed = control[0], feeds[block.id, control[0]]
-        rate = block.parameters.get("SampleTime", "-1").strip()
+        rate = block.parameters.get("SampleTime", "-1")
         if block.chart:
             chart = self.context.chart(block.chart).drawn
             rate = chart.sample_time.strip() or "-1" if chart.update == "discrete" else rate
+        rate = rate_of(rate, self.context.named)
         if rate not in ("-1", "0", "inf") and not _same(rate, self.context.step):
             raise NotLowered(
                 f"the block {block.path} runs every {rate} s, and the model every {self.context.step} s: "
