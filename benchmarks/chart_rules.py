@@ -44,7 +44,7 @@ class BrokenRule:
 INTERPRETER = (
     "tests/drawn/test_interpreter.py", "tests/drawn/test_early_return.py",
     "tests/drawn/test_interpreter_times.py", "tests/drawn/test_interpreter_numbers.py",
-    "tests/drawn/test_computed_numbers.py", "tests/drawn/test_diagram_runs.py",
+    "tests/drawn/test_computed_numbers.py", "tests/drawn/test_arrays.py", "tests/drawn/test_diagram_runs.py",
 )  # fmt: skip
 LOWERING = (
     "tests/drawn/test_lowering.py", "tests/drawn/test_lowering_blocks.py", *INTERPRETER,

@@ -1,6 +1,7 @@
 """Files of SCXML: states, transitions and executable content, or what has no meaning here, with its line."""
 
 import re
+from collections.abc import Mapping
 from math import gcd
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from rovercheck.checker.scxml.records import (
     OTHER,
     MachineState,
     MachineTransition,
+    StateKind,
     StateMachine,
     matches,
 )
@@ -20,7 +22,9 @@ LARGEST = 16 << 20
 MOST_STATES = 2000
 AGAIN = "Write plain SCXML, without a <!DOCTYPE>."
 SPACE = "{http://www.w3.org/2005/07/scxml}"
-STATES = ("state", "parallel", "final", "history")
+STATES: Mapping[str, StateKind] = {
+    "state": "state", "parallel": "parallel", "final": "final", "history": "history"
+}  # fmt: skip
 REFUSED = {
     "invoke": "another machine or service. Model what it sends as events",
     "script": "a script. Write <assign> elements",
@@ -139,7 +143,7 @@ class _Reader:
             raise ModelError(
                 f"{self.place}, line {element.line}: more than {MOST_STATES} states are not read."
             )
-        made = MachineState(id, tag, parent, number, element.line)  # type: ignore[arg-type]
+        made = MachineState(id, STATES[tag], parent, number, element.line)
         made.deep = element.attributes.get("type", "shallow") == "deep"
         self.states[id] = made
         (parent.histories if tag == "history" else parent.children).append(made)

@@ -283,7 +283,7 @@ def seeking_causes(command: Callable[..., Exit]) -> Callable[..., Exit]:
         click.option(
             "--seconds",
             type=click.FloatRange(min=0, min_open=True),
-            default=120.0,
+            default=300.0,
             show_default=True,
             metavar="S",
             help="How long the causes of a part are looked for, in seconds of the processor.",

@@ -120,16 +120,14 @@ class FormulaWriter:
                     test, *some = body.args
                     parts = [Apply(op, (*args[:at], one, *args[at + 1 :]), Bool()) for one in some]
                     return self._choice((test, *parts), word)
-        if op in CALLS:
-            return f"{CALLS[op]}({', '.join(self(one, word) for one in args)})"
-        shown = [self._inner(one, word) for one in args]
+        shown = [self(one, word) if op in CALLS else self._inner(one, word) for one in args]
         return OPERATIONS[op](shown)
 
     def _choice(self, args: Sequence[Expr], word: Word) -> str:
         test, then, other = args
         if isinstance(then.sort, Num):
             self.chooses = True
-            return f"{CHOICE}({self(test, word)}, {self(then, word)}, {self(other, word)})"
+            return OPERATIONS[Op.ITE]([self(one, word) for one in (test, then, other)])
         if isinstance(then.sort, Enum):
             raise ModelError(
                 f"`{Apply(Op.ITE, tuple(args), then.sort)}` chooses a member within a formula; assign it."
@@ -158,6 +156,10 @@ class FormulaWriter:
         return own if op is Op.EQ else f"~{own}"
 
 
+def _call(name: str) -> Callable[[Sequence[str]], str]:
+    return lambda args: f"{name}({', '.join(args)})"
+
+
 def _between(sign: str) -> Callable[[Sequence[str]], str]:
     return sign.join
 
@@ -180,6 +182,8 @@ OPERATIONS: Mapping[Op, Callable[[Sequence[str]], str]] = {
     Op.SCALE: lambda args: args[0],
     Op.DIV: lambda args: f"floor({args[0]} / {args[1]})",
     Op.BIT: lambda args: f"mod(floor({args[0]} / {2 ** int(args[1])}), 2) == 1",
+    Op.ITE: _call(CHOICE),
+    **{op: _call(name) for op, name in CALLS.items()},
 }
 
 __all__ = ["CHOICE", "CHOICE_SCRIPT", "FormulaWriter", "Word", "no_words"]

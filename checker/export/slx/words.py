@@ -5,9 +5,10 @@ executed: that is the same where ``c`` does not change from then to the end of t
 ``rising`` are seen at the start of the chart's step, before which other charts may write.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 
 from rovercheck.checker.export.slx.formulas import FormulaWriter, Word
 from rovercheck.spec_model.lang.chart import Chart, Path
@@ -61,21 +62,21 @@ class ChartWords:
                     return f"(duration({self.formulas(word.arg)}) {sign} {self._seconds(word.span)})"
                 assert source is not None
                 key = (source, structure(word))
-                counter = self._once(key, lambda: self._duration(word, word.arg, source))
+                counter = self._once(key, partial(self._duration, word, word.arg, source))
                 return f"({counter} {sign} {word.span.ticks(self.step_ms)})"
             case When.RISING if word.arg is not None:
-                return self._once(structure(word), lambda: self._rising(word.arg))
+                return self._once(structure(word), partial(self._rising, word.arg))
             case When.HELD if word.arg is not None and word.span is not None:
                 measured = word.span.measured(self.elapsed)
                 top = word.span.ticks(1 if measured else self.step_ms) + 1
-                counter = self._once(structure(word), lambda: self._held(word.arg, top, measured))
+                counter = self._once(structure(word), partial(self._held, word.arg, top, measured))
                 return f"({counter} >= {top})"
         raise AssertionError(word)
 
     def _seconds(self, span: Span) -> str:
         return show(Fraction(span.ticks(self.step_ms) * self.step_ms, 1000))
 
-    def _once(self, key: object, make) -> str:  # type: ignore[no-untyped-def]
+    def _once(self, key: object, make: Callable[[], str]) -> str:
         if key not in self._known:
             self._known[key] = make()
         return self._known[key]
