@@ -74,6 +74,20 @@ def test_the_output_type_of_a_block_is_that_of_its_exact_result(
     ]
 
 
+@pytest.mark.parametrize(("kind", "expected"), [("Sum", 200), ("Product", 10_000)])
+def test_a_result_in_a_wider_type_does_not_wrap_before(kind: str, expected: int, tmp_path: Path) -> None:
+    """It wrapped in the type of the inputs."""
+    read = model(ports(5) + block(kind, "it", 5, OutDataTypeStr="int16"), tmp_path)
+    assert run(read, [{"a": 100, "b": 100}]) == [(expected,)]
+
+
+def test_a_product_may_begin_with_a_division(tmp_path: Path) -> None:
+    half = block("Constant", "half", 1, Value="0.5") + signal("1#out:1", "5#in:1")
+    three = block("Constant", "three", 2, Value="3") + signal("2#out:1", "5#in:2")
+    read = model(half + three + ports(5, "") + block("Product", "it", 5, Inputs="/*"), tmp_path)
+    assert run(read, [{}]) == [(6,)]
+
+
 def test_an_integer_times_a_fraction_is_refused_without_an_output_type(tmp_path: Path) -> None:
     """It was rounded to a whole number; in Simulink it is a fixed-point number."""
     for said in refused(model(ports(5, "a") + block("Gain", "it", 5, Gain="0.5"), tmp_path)):
@@ -118,6 +132,13 @@ def test_the_elements_of_one_vector_are_combined(
 ) -> None:
     text = block("Constant", "c", 1, Value="[3 0]") + signal("1#out:1", "5#in:1")
     assert run(model(text + ports(5, "") + block(kind, "it", 5, "", **values), tmp_path), [{}]) == [expected]
+
+
+def test_a_real_number_times_a_gain_of_integers_is_a_real_number(tmp_path: Path) -> None:
+    """It was an integer, as in MATLAB."""
+    half = block("Constant", "half", 1, Value="0.5") + signal("1#out:1", "5#in:1")
+    read = model(half + ports(5, "") + block("Gain", "it", 5, Gain="int8(3)"), tmp_path)
+    assert run(read, [{}]) == [(1.5,)]
 
 
 # --- what is left out --------------------------------------------------------------------------------------

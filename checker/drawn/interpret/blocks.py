@@ -168,6 +168,8 @@ def _signs(text: str, sign: str) -> str:
 
 def _gain(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     value, factor = inputs[0], value_of(block.parameters.get("Gain", "1"))
+    if value.kind in FLOATS:
+        factor = each_converted(factor, value.kind, WRAPS)
     said = block.parameters.get("OutDataTypeStr", "Inherit: Inherit via internal rule")
     whole = all(one.value == int(one.value) for one in scalars(factor))
     if value.kind in WHOLE and not whole and "internal rule" in said:

@@ -26,6 +26,7 @@ from rovercheck.checker.drawn.lower.rounding import (
 )
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
+    REALS,
     NotLowered,
     Symbolic,
     SymbolicScalar,
@@ -203,6 +204,8 @@ def _quotient(block: DrawnBlock, one: Symbolic, other: Symbolic, types: BlockTyp
 def _gain(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     value, factor = inputs[0], types.value_of(block.parameters.get("Gain", "1"))
     if value.kind not in INTEGERS:
+        if value.kind in REALS:
+            factor = each_converted(factor, value.kind, WRAPS, types.kinds)
         return [types.typed(block, binary(".*", value, factor, types.rules(block)))]
     numbers, said = [one.constant for one in flat(factor)], _said(block)
     whole = all(one is not None and one.denominator == 1 for one in numbers)
