@@ -45,13 +45,17 @@ INTERPRETER = (
     "tests/drawn/test_interpreter.py", "tests/drawn/test_early_return.py",
     "tests/drawn/test_interpreter_times.py", "tests/drawn/test_interpreter_numbers.py",
     "tests/drawn/test_computed_numbers.py", "tests/drawn/test_arrays.py", "tests/drawn/test_diagram_runs.py",
+    "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
 )  # fmt: skip
 LOWERING = (
     "tests/drawn/test_lowering.py", "tests/drawn/test_lowering_blocks.py", *INTERPRETER,
     "tests/simulink/test_simulink_model.py", "tests/simulink/test_by_hand.py",
     "tests/drawn/test_two_readings.py",
 )  # fmt: skip
-PACKAGES = ("tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py")
+PACKAGES = (
+    "tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py",
+    "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
+)  # fmt: skip
 READINGS: Mapping[str, Reading] = {
     "interpret": Reading(Path("checker/drawn/interpret"), INTERPRETER),
     "lower": Reading(Path("checker/drawn/lower"), LOWERING),

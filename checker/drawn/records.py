@@ -226,6 +226,11 @@ class DrawnBlock:
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
     line: int = 0
 
+    @property
+    def shown(self) -> str:
+        """Its name in one line."""
+        return " ".join(part for line in self.name.splitlines() if (part := line.strip()))
+
 
 @dataclass(frozen=True)
 class DrawnSystem:

@@ -6,6 +6,7 @@ from typing import Literal
 
 from rovercheck.checker.drawn.activity import tells_of_regions
 from rovercheck.checker.drawn.records import (
+    DrawnBlock,
     DrawnChart,
     DrawnContent,
     DrawnData,
@@ -14,6 +15,8 @@ from rovercheck.checker.drawn.records import (
     DrawnSystem,
     DrawnTransition,
 )
+from rovercheck.checker.drawn.type_names import plain_type
+from rovercheck.checker.drawn.wiring import CONTROL
 
 
 @dataclass(frozen=True)
@@ -63,12 +66,27 @@ def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
 
 def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
     for block in system.blocks:
-        if block.kind in BLOCKS:
-            name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
-            text = f"it is {BLOCKS[block.kind]}."
+        name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
+        for text in _of_block(block, system):
             yield DrawingNote("refused", name, what, text, system.part, None, block.line)
         if block.system is not None and not block.chart:
             yield from _blocks(block.system)
+
+
+def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
+    """Why a block has no meaning here."""
+    if block.kind in BLOCKS:
+        yield f"it is {BLOCKS[block.kind]}."
+    if block.parameters.get("Commented") == "through":
+        yield "it is commented through. Delete it, and draw the signal past it."
+    if block.kind != "SubSystem" or block.system is None or block.chart:
+        return
+    connected = {one.to_port for one in system.lines if one.target == block.id}
+    ports = [CONTROL[one.kind] for one in block.system.blocks if one.kind in CONTROL]
+    for port in sorted({*ports} - connected):
+        yield f"nothing is connected to its port {port}. Connect a signal, or delete the port."
+    if len(ports) > 1:
+        yield f"it has the ports {' and '.join(ports)}. Put what the second controls into a subsystem in it."
 
 
 def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
@@ -123,10 +141,10 @@ def _level(
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:
-    why = ""
+    why, type_ = "", plain_type(one.type)
     if one.message:
         why = "it is a message, with a queue. Use an event, or a datum and a counter"
-    elif "fixdt" in one.type or one.type.startswith(("sfix", "ufix")):
+    elif "fixdt" in type_ or type_.startswith(("sfix", "ufix")):
         why = f"{one.type} is a fixed-point type. Use a type of integers, and scale in the chart"
     elif one.scope == "data store":
         why = "it is a data store, which other blocks write, too. Connect it as an input and an output"

@@ -23,6 +23,14 @@ class SystemWiring:
     order: list[DrawnBlock] = field(default_factory=list)
     feeds: dict[tuple[str, str], Port] = field(default_factory=dict)
 
+    def inputs_of(self, block: DrawnBlock) -> list[Port | None]:
+        """What feeds each input of a block, those too to which nothing is connected."""
+        ports = [int(port) for target, port in self.feeds if target == block.id and port.isdigit()]
+        most = max(ports, default=0)
+        if block.system is None:
+            most = max(most, _inputs_said(block))
+        return [self.feeds.get((block.id, str(number))) for number in range(1, most + 1)]
+
 
 def wired(system: DrawnSystem) -> SystemWiring:
     """The wiring of a system.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
@@ -40,6 +48,23 @@ def _is_group(block: DrawnBlock) -> bool:
 def number_of(block: DrawnBlock) -> int:
     """The number of an Inport or Outport."""
     return int(block.parameters.get("Port", "1"))
+
+
+ONE_INPUT = ("Gain", "DataTypeConversion", "Abs", "Saturate", "Outport", *DELAYS)
+MOST_INPUTS = 10_000
+
+
+def _inputs_said(block: DrawnBlock) -> int:
+    """How many inputs a block has as its ports or its parameters say, at most 10,000."""
+    said, written = block.parameters.get("ports in", ""), block.parameters.get("Inputs", "").strip()
+    signs = written.replace("|", "")
+    if block.kind == "Logic":
+        fewest = 1 if block.parameters.get("Operator") == "NOT" else int(signs) if signs.isdigit() else 2
+    elif block.kind in ("Sum", "Product"):
+        fewest = int(signs) if signs.isdigit() else len(signs) or 2
+    else:
+        fewest = {"RelationalOperator": 2, "Switch": 3}.get(block.kind, int(block.kind in ONE_INPUT))
+    return min(max(fewest, int(said) if said.isdigit() else 0), MOST_INPUTS)
 
 
 class _Wires:

@@ -15,11 +15,11 @@ _PIECE = re.compile(
     """,
     re.VERBOSE,
 )
-_ASSIGNMENT = re.compile(r"\s*([A-Za-z]\w*)\s*=(?!=)(.*)", re.DOTALL)
+_ASSIGNMENT = re.compile(r"\s*([A-Za-z]\w*(?:\.\w+)?)\s*=(?!=)(.*)", re.DOTALL)
 
 
 def assignments(text: str) -> Iterator[tuple[str, str]]:
-    """Names and values, in their order; what computes is for those who ask for the name."""
+    """Names, or those of a property as ``K.Value``, and values, in their order, as they are written."""
     for statement in _statements("\n".join(_lines(text))):
         found = _ASSIGNMENT.fullmatch(statement)
         if found and (value := found[2].strip()):

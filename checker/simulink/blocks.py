@@ -1,9 +1,10 @@
 """Block diagrams: systems of blocks with their parameters, and the signals between their ports."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnLine, DrawnSystem, path_of
+from rovercheck.checker.simulink.masks import VALUES, MaskScope, scope_in, valued
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement, numbers
 from rovercheck.spec_model.lang.errors import ModelError
@@ -25,10 +26,17 @@ MOST_LEVELS = 64
 class DiagramReader:
     """Reads the systems of a package, each once: a system that holds itself is refused."""
 
-    def __init__(self, package: SimulinkPackage) -> None:
+    def __init__(
+        self, package: SimulinkPackage, defaults: Mapping[str, Mapping[str, str]] | None = None
+    ) -> None:
         self._package = package
+        self._defaults = defaults or {}
         self._read: set[str] = set()
         self._letters = MOST_LETTERS
+        self.commented: list[str] = []
+        """The paths of blocks that are commented out, which are left out with their signals."""
+        self.scopes: dict[str, MaskScope] = {}
+        """The names of masks in which the block of a chart is, and in its own, by its path."""
 
     def root(self, element: XmlElement, part: str) -> DrawnSystem:
         """The diagram of a model, whose element holds or names its system.  Raises ``ModelError``."""
@@ -36,9 +44,9 @@ class DiagramReader:
         if system is None:
             place = self._package.place(part)
             raise ModelError(f"{place}: the model has no <System>. Save the model again in Simulink.")
-        return self._system(system, part, ())
+        return self._system(system, part, (), {})
 
-    def _system(self, element: XmlElement, part: str, path: tuple[str, ...]) -> DrawnSystem:
+    def _system(self, element: XmlElement, part: str, path: tuple[str, ...], scope: MaskScope) -> DrawnSystem:
         reference = element.attributes.get("Ref")
         if len(path) >= MOST_LEVELS:
             raise ModelError(
@@ -46,12 +54,17 @@ class DiagramReader:
                 "each other are read. No diagram that is drawn has so many."
             )
         if reference is not None:
-            return self._referenced(reference, path)
-        blocks = tuple(self._block(one, part, path) for one in element.all("Block"))
-        lines = tuple(line for one in element.all("Line") for line in self._lines(one, part))
-        return DrawnSystem(blocks, lines, part)
+            return self._referenced(reference, path, scope)
+        drawn, without = list[XmlElement](), list[XmlElement]()
+        for one in element.all("Block"):
+            (without if one.property_of("Commented") == "on" else drawn).append(one)
+        self.commented += (path_of(*path, one.attributes.get("Name", "")) for one in without)
+        blocks = tuple(self._block(one, part, path, scope) for one in drawn)
+        out = {one.attributes.get("SID", "") for one in without}
+        lines = (line for one in element.all("Line") for line in self._lines(one, part))
+        return DrawnSystem(blocks, tuple(one for one in lines if not {one.source, one.target} & out), part)
 
-    def _referenced(self, reference: str, path: tuple[str, ...]) -> DrawnSystem:
+    def _referenced(self, reference: str, path: tuple[str, ...], scope: MaskScope) -> DrawnSystem:
         part = f"simulink/systems/{reference}.xml"
         if part in self._read:
             raise ModelError(
@@ -65,9 +78,9 @@ class DiagramReader:
                 f"{self._package.place(part)}: in place of a system it has the name of another one. Save the "
                 "model again in Simulink."
             )
-        return self._system(system, part, path)
+        return self._system(system, part, path, scope)
 
-    def _block(self, one: XmlElement, part: str, path: tuple[str, ...]) -> DrawnBlock:
+    def _block(self, one: XmlElement, part: str, path: tuple[str, ...], scope: MaskScope) -> DrawnBlock:
         name = one.attributes.get("Name", "")
         within = (*path, name)
         own_path = path_of(*within)
@@ -77,8 +90,15 @@ class DiagramReader:
                 f"{self._package.place(part)}, line {one.line}: the paths of the blocks have more than "
                 f"{MOST_LETTERS:,} letters. No diagram that is drawn has so many."
             )
-        system = one.child("System")
-        parameters = {p.attributes.get("Name", ""): p.text for p in one.all("P")}
+        system, place = one.child("System"), self._package.place(part)
+        kind = one.attributes.get("BlockType", "")
+        parameters = {**self._defaults.get(kind, {}), **_properties(one)}
+        for name in VALUES if scope else ():
+            if name in parameters:
+                parameters[name] = valued(parameters[name], scope, place, one.line)
+        inner = scope_in(one, scope, place)
+        if parameters.get("SFBlockType") in CHARTS:
+            self.scopes[own_path] = inner
         counts = one.child("PortCounts")
         if counts is None:
             parameters |= _ports(parameters.get("Ports", ""))
@@ -87,12 +107,12 @@ class DiagramReader:
         left, top, right, bottom = numbers(parameters.get("Position", ""), 4)
         return DrawnBlock(
             id=one.attributes.get("SID", ""),
-            kind=one.attributes.get("BlockType", ""),
+            kind=kind,
             name=name,
             path=own_path,
             parameters=parameters,
             signals=dict(_signals(one)),
-            system=None if system is None else self._system(system, part, within),
+            system=None if system is None else self._system(system, part, within, inner),
             chart=own_path if parameters.get("SFBlockType") in CHARTS else "",
             rectangle=(left, top, right - left, bottom - top),
             line=one.line,
@@ -124,6 +144,16 @@ class DiagramReader:
         return found[1], found[2], found[3] or ""
 
 
+def _properties(one: XmlElement) -> dict[str, str]:
+    return {p.attributes.get("Name", ""): p.text for p in one.all("P")}
+
+
+def defaults_of(model: XmlElement) -> dict[str, dict[str, str]]:
+    """What the blocks of each kind say if they say nothing, where a model writes that down."""
+    every = (one for listed in model.all("BlockParameterDefaults") for one in listed.all("Block"))
+    return {one.attributes.get("BlockType", ""): _properties(one) for one in every}
+
+
 def _signals(block: XmlElement) -> Iterator[tuple[str, str]]:
     """The names of the outputs of a block by number; older releases put the number into a property."""
     for ports in block.all("PortProperties"):
@@ -141,4 +171,4 @@ def _ports(written: str) -> dict[str, str]:
     return {f"ports {kind}": count[0] for kind, count in counts if int(count[0])}
 
 
-__all__ = ["CONTROL", "DiagramReader"]
+__all__ = ["CONTROL", "DiagramReader", "defaults_of"]

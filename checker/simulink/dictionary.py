@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import dropwhile, takewhile
 from pathlib import Path
 
+from rovercheck.checker.drawn.parameters import expanded
 from rovercheck.checker.drawn.records import DrawnBus, DrawnElement, DrawnEnumeration, DrawnParameter
 from rovercheck.checker.io.bounded import bounded_bytes
 from rovercheck.checker.simulink.assignments import assignments
@@ -25,6 +26,7 @@ _DEFAULT = re.compile(
     r"function\s+(\w+)\s*=\s*getDefaultValue[ \t]*(?:\([ \t]*\))?[ \t;,]*\n\s*\1\s*=\s*(?:\w+\.)?(\w+)"
 )
 _COMMENT = re.compile(r"%.*")
+_PARAMETER = re.compile(r"Simulink\.Parameter\s*(?:\((.*)\))?", re.DOTALL)
 _WHOLE = re.compile(r"-?\d{1,18}(?:\.0*)?")
 
 
@@ -80,8 +82,25 @@ class Definitions:
         if found := _CLASS.search(text):
             self.enumerations[found[1]] = _enumeration_class(found[1], found[2], text, path)
         else:
+            known = {one.name: one.value for one in self.parameters.values()}
             for name, value in assignments(text):
-                self.parameters[name] = DrawnParameter(name, value, "", path.name)
+                self._assign(name, expanded(value, known), path.name)
+                owner = name.partition(".")[0]
+                if owner in self.parameters:
+                    known[owner] = self.parameters[owner].value
+
+    def _assign(self, name: str, value: str, file: str) -> None:
+        """A value in a script, or a property of one."""
+        owner, _, part = name.rpartition(".")
+        if not owner:
+            made = _PARAMETER.fullmatch(value.strip())
+            said = (made[1] or "[]") if made else value
+            self.parameters[name] = DrawnParameter(name, said, "", file)
+        elif owner in self.parameters and part == "Value":
+            self.parameters[owner] = replace(self.parameters[owner], value=value)
+        elif owner in self.parameters and part == "DataType":
+            kind = value.strip().strip("'\"")
+            self.parameters[owner] = replace(self.parameters[owner], type=kind)
 
 
 def _others(root: XmlElement, place: str) -> Iterator[str]:

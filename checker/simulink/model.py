@@ -4,10 +4,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rovercheck.checker.drawn.activity import NONE, activity_members
+from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnEnumeration, DrawnModel
-from rovercheck.checker.simulink.blocks import DiagramReader
+from rovercheck.checker.simulink.blocks import DiagramReader, defaults_of
+from rovercheck.checker.simulink.chart_blocks import in_order_of_ports, without
 from rovercheck.checker.simulink.charts import chart_of, charts_in, data_of
 from rovercheck.checker.simulink.dictionary import Definitions, files_beside, is_file
+from rovercheck.checker.simulink.masks import in_mask
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
 from rovercheck.spec_model.lang.errors import ModelError
@@ -15,6 +18,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 DIAGRAM = "simulink/blockdiagram.xml"
 MACHINE = "simulink/stateflow/machine.xml"
 ALL_CHARTS = "simulink/stateflow.xml"
+DEFAULTS = "simulink/bddefaults.xml"
 ENUM = "Enum:"
 
 
@@ -34,8 +38,11 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
     model = top if top.tag in ("Model", "Library") else top.child("Model", "Library")
     if model is None:
         raise ModelError(f"{package.place(DIAGRAM)}: it holds no model. Save the model again in Simulink.")
-    system = DiagramReader(package).root(model, DIAGRAM)
+    diagrams = DiagramReader(package, _defaults(package, model))
+    system = diagrams.root(model, DIAGRAM)
     charts, data = _charts(package, top)
+    charts = in_order_of_ports(without(charts, diagrams.commented), system)
+    charts = tuple(in_mask(one, diagrams.scopes.get(one.path, {}), package.place(one.part)) for one in charts)
     types = [one.type for one in data]
     types += (one.type for chart in charts for level in chart.content.every_level() for one in level.data)
     types += (block.parameters.get("OutDataTypeStr", "") for block in system.every_block())
@@ -43,11 +50,12 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
     for made in _made_of_activities(charts):
         definitions.enumerations.setdefault(made.name, made)
     solver = _solver(package, model)
+    named = {name: one.value for name, one in definitions.parameters.items()}
     return DrawnModel(
         name=path.stem,
         format="simulink",
         release=_release(package),
-        step=solver.get("FixedStep", ""),
+        step=rate_of(solver.get("FixedStep", ""), named),
         solver=solver.get("SolverName", solver.get("Solver", "")),
         system=system,
         charts=charts,
@@ -57,6 +65,12 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
         data=data,
         files=(str(path), *definitions.files),
     )
+
+
+def _defaults(package: SimulinkPackage, model: XmlElement) -> dict[str, dict[str, str]]:
+    """The defaults of blocks, which newer releases write into a part of their own."""
+    apart = package.xml(DEFAULTS).every() if DEFAULTS in package else ()
+    return {kind: said for one in (model, *apart) for kind, said in defaults_of(one).items()}
 
 
 # --- charts ------------------------------------------------------------------------------------------------

@@ -84,7 +84,8 @@ class RandomDiagram:
     def _gain(self) -> None:
         kind, one = self.signal("int8", "uint8", "double")
         factor = self.random.choice(("2", "-1", "0.5", "3")) if kind != "double" else "-1"
-        self.block("Gain", ONE, [one], kind, Gain=factor, **self._rules())
+        said = {"OutDataTypeStr": kind} if factor == "0.5" else {}
+        self.block("Gain", ONE, [one], kind, Gain=factor, **said, **self._rules())
 
     def _switch(self) -> None:
         kind, (one, other) = self._same()

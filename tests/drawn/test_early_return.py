@@ -97,3 +97,42 @@ def test_a_region_is_not_entered_once_what_is_around_it_was_left(tmp_path: Path)
         assert len(regions) == 2
 
     assert logged(running(tmp_path, draw), [0, 0]) == [13, 13]
+
+
+def put(digit: int) -> str:
+    """An action in C that notes a digit."""
+    return f"log = log * 10 + {digit};"
+
+
+def test_an_event_of_an_exit_action_in_c_is_answered_by_the_state_that_is_left(tmp_path: Path) -> None:
+    """It is left once more by itself, and what the first exit still had to do is dropped."""
+
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        c.data("n", "local", "uint8")
+        a = c.state(f"A\nex: n++; log = log * 10 + n; E; {put(9)}")
+        b, z = c.state(f"B\nen: {put(4)}"), c.state(f"Z\nen: {put(5)}")
+        c.transition(None, a)
+        c.transition(a, z, "E[n == 1]", 1)
+        c.transition(a, b, "[u > 0 && n == 0]", 2)
+
+    found = running(tmp_path, draw, {"u": "uint8"}, {"log": "uint32"}, language="C")
+    assert logged(found, [0, 1, 1]) == [0, 1295, 1295]
+
+
+def test_an_event_of_an_exit_action_in_c_is_answered_before_the_action_goes_on(tmp_path: Path) -> None:
+    """By another region, while the state that sends it is still active."""
+
+    def draw(c: WrittenChart) -> None:
+        c.event("E")
+        c.data("n", "local", "uint8")
+        s, t = c.state("S", order=1), c.state("T", order=2)
+        a, b = c.state(f"A\nex: {put(1)} E; {put(2)}", s), c.state(f"B\nen: {put(4)}", s)
+        k, m = c.state("K", t), c.state(f"M\nen: {put(3)}", t)
+        c.transition(None, a)
+        c.transition(None, k)
+        c.transition(a, b, "[u > 0 && n == 0]{n = 1;}")
+        c.transition(k, m, "E[in(S.A)]")
+
+    found = running(tmp_path, draw, {"u": "uint8"}, {"log": "uint32"}, language="C", parallel=True)
+    assert logged(found, [0, 1]) == [0, 1324]

@@ -71,7 +71,14 @@ def test_a_block_gives_the_same_in_both_readings(
 
 @pytest.mark.parametrize(
     ("way", "down", "up"),
-    [("", -2, 1), ("Floor", -2, 1), ("Ceiling", -1, 2), ("Zero", -1, 1), ("Nearest", -2, 2)],
+    [
+        ("", -2, 1),
+        ("Floor", -2, 1),
+        ("Ceiling", -1, 2),
+        ("Zero", -1, 1),
+        ("Nearest", -1, 2),
+        ("Round", -2, 2),
+    ],
 )
 def test_a_conversion_rounds_as_it_says_and_down_if_it_says_nothing(
     tmp_path: Path, way: str, down: float, up: float
@@ -131,7 +138,7 @@ def test_integers_are_divided_by_any_other(tmp_path: Path) -> None:
     ]
     model = WrittenModel("one")
     made = model.root.block(
-        "Product", "p", {"in": 2, "out": 1}, {}, Inputs="*/", SaturateOnIntegerOverflow="on"
+        "Product", "p", {"in": 2, "out": 1}, {}, Inputs="*/", SaturateOnIntegerOverflow="on", RndMeth="Round"
     )
     for number, name in enumerate("ab", 1):
         model.root.line(model.root.inport(name, number, OutDataTypeStr="int8"), f"{made}/{number}")

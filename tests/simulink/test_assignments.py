@@ -21,7 +21,7 @@ from rovercheck.spec_model.lang.errors import ModelError
         ("S = '50 % of it; all'; T = \"it's\";", {"S": "'50 % of it; all'", "T": '"it\'s"'}),
         ("A = [1 2]'; B = A'; C = x.';", {"A": "[1 2]'", "B": "A'", "C": "x.'"}),
         ("%{\nA = 1;\n%}\nB = 2; % C = 3;", {"B": "2"}),
-        ("P = Simulink.Parameter(5);\nP.Value = 6;", {"P": "Simulink.Parameter(5)"}),
+        ("P = Simulink.Parameter(5);\nP.Value = 6;", {"P": "Simulink.Parameter(5)", "P.Value": "6"}),
         ("if A == 1\n  B = 2;\nend\nA == 3;\nf(x)\n[a, b] = g(1);", {"B": "2"}),
         ("A = 1;\nA = 2;", {"A": "2"}),
         ("A = ;\n = 5;\n5 = A", {}),

@@ -1,17 +1,19 @@
 """What the blocks of a diagram compute from their inputs in a step."""
 
-import re
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import reduce
+from math import ceil, floor, isfinite, trunc
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression
-from rovercheck.checker.drawn.interpret.functions import BUILTINS
 from rovercheck.checker.drawn.interpret.memory import BUS, TypeTable
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
+    FLOATS,
+    WHOLE,
     ArrayOf,
     MatlabValue,
     NumberRules,
@@ -20,6 +22,7 @@ from rovercheck.checker.drawn.interpret.values import (
     array,
     double,
     each_converted,
+    in_range,
     logical,
     scalar,
     scalars,
@@ -33,6 +36,12 @@ ValueOf = Callable[[str], MatlabValue]
 BlockStep = Callable[[DrawnBlock, Inputs, TypeTable, ValueOf], list[MatlabValue]]
 WRAPS = NumberRules(False, False)
 SATURATES = NumberRules(False, True)
+ROUNDINGS: Mapping[str, Callable[[Fraction], int]] = {
+    "Floor": floor, "Ceiling": ceil, "Zero": trunc, "Nearest": lambda one: floor(one + Fraction(1, 2)),
+    "Round": lambda one: floor(abs(one) + Fraction(1, 2)) * (1 if one > 0 else -1),
+}  # fmt: skip
+"""How a block rounds; of two whole numbers that are as near, Nearest takes the greater one."""
+SAY_TYPE = "give the block an output type, as int32 or double"
 
 
 def rules_of(block: DrawnBlock) -> NumberRules:
@@ -44,11 +53,53 @@ def typed(block: DrawnBlock, value: MatlabValue, types: TypeTable) -> MatlabValu
     """A value in the type that a block says, if it says one."""
     text = block.parameters.get("OutDataTypeStr", "Inherit")
     kind = "" if text.startswith(("Inherit", "Bus")) else types.kind(text)
-    return each_converted(value, kind, rules_of(block)) if kind else value
+    return as_said(block, value, kind) if kind else value
+
+
+def as_said(block: DrawnBlock, value: MatlabValue, kind: str) -> MatlabValue:
+    """A value in a type, rounded as the block says: down if it says nothing."""
+    if kind not in WHOLE or isinstance(value, Structure):
+        return each_converted(value, kind, rules_of(block))
+    return array([_in_integers(block, one, kind) for one in scalars(value)], *shape(value), kind)
+
+
+def _in_integers(block: DrawnBlock, one: Scalar, kind: str) -> Scalar:
+    if not isfinite(one.value):
+        return scalar(each_converted(one, kind, rules_of(block)))
+    return _rounded(block, Fraction(one.value), kind)
+
+
+def _rounded(block: DrawnBlock, exact: Fraction, kind: str) -> Scalar:
+    way = block.parameters.get("RndMeth", "Floor")
+    if way not in ROUNDINGS:
+        raise DrawnFault(f"the rounding {way} is not known: {', '.join(ROUNDINGS)} are")
+    return Scalar(kind, in_range(ROUNDINGS[way](exact), kind, rules_of(block).saturates))
+
+
+def _together(block: DrawnBlock, inputs: Inputs) -> Inputs:
+    """What is computed with: integers are real numbers beside one, and where a type is said."""
+    kinds = {one.kind for one in inputs}
+    said = kinds & {"int64", "uint64"} or block.parameters.get("OutDataTypeStr", "Inherit").startswith("Inh")
+    real = next((kind for kind in FLOATS if kind in kinds), "" if said else "double")
+    return [each_converted(one, real, WRAPS) if real and one.kind in WHOLE else one for one in inputs]
+
+
+def _beside(inputs: Inputs) -> tuple[list[tuple[Scalar, ...]], tuple[int, int]]:
+    """The scalars of inputs that are of one place, of which one may be a scalar for all, and their size."""
+    sizes = {shape(one) for one in inputs} - {(1, 1)} or {(1, 1)}
+    if len(sizes) > 1:
+        told = " and ".join(f"{rows}x{columns}" for rows, columns in sorted(sizes))
+        raise DrawnFault(f"its inputs are matrices of {told}")
+    [(rows, columns)] = sizes
+    count = rows * columns
+    every = [tuple(scalars(one)) * (count if shape(one) == (1, 1) else 1) for one in inputs]
+    return list(zip(*every, strict=True)), (rows, columns)
 
 
 def _constant(block: DrawnBlock, _: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
-    return [typed(block, value_of(block.parameters.get("Value", "1")), types)]
+    text, value = block.parameters.get("OutDataTypeStr", "Inherit"), block.parameters.get("Value", "1")
+    kind = "" if text.startswith(("Inherit", "Bus")) else types.kind(text)
+    return [each_converted(value_of(value), kind, rules_of(block)) if kind else value_of(value)]
 
 
 def _ground(block: DrawnBlock, _: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -57,7 +108,6 @@ def _ground(block: DrawnBlock, _: Inputs, types: TypeTable, value_of: ValueOf) -
 
 def _logic(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     operator = block.parameters.get("Operator", "AND")
-    truths = [one.truth for value in inputs for one in scalars(value)]
     ways: Mapping[str, Callable[[Sequence[bool]], bool]] = {
         "AND": all, "OR": any, "NOT": lambda some: not some[0], "NAND": lambda some: not all(some),
         "NOR": lambda some: not any(some), "XOR": lambda some: sum(some) % 2 == 1,
@@ -65,7 +115,12 @@ def _logic(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueO
     }  # fmt: skip
     if operator not in ways:
         raise DrawnFault(f"the operator {operator} of a Logic block is not known")
-    return [logical(ways[operator](truths))]
+    if len(inputs) == 1 and operator != "NOT":
+        return [logical(ways[operator]([one.truth for one in scalars(inputs[0])]))]
+    places, size = _beside(inputs)
+    return [
+        typed(block, array([logical(ways[operator]([o.truth for o in p])) for p in places], *size), types)
+    ]
 
 
 def _relation(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -74,8 +129,9 @@ def _relation(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Val
 
 
 def _sum(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
-    signs = _signs(block.parameters.get("Inputs", "++"), "+")
-    rules = rules_of(block)
+    signs, rules = _signs(block.parameters.get("Inputs", "++"), "+"), rules_of(block)
+    inputs = scalars(inputs[0]) if len(inputs) == 1 else _together(block, inputs)
+    signs = signs * len(inputs) if len(signs) == 1 else signs
     first = inputs[0] if signs[0] == "+" else unary("-", inputs[0], rules)
     pairs = zip(signs[1:], inputs[1:], strict=True)
     return [
@@ -84,12 +140,24 @@ def _sum(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf)
 
 
 def _product(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
-    signs = _signs(block.parameters.get("Inputs", "2"), "*")
-    rules = rules_of(block)
-    first = inputs[0] if signs[0] == "*" else binary("./", double(1), inputs[0], rules)
-    pairs = zip(signs[1:], inputs[1:], strict=True)
-    found = reduce(lambda sofar, one: binary(f".{one[0]}", sofar, one[1], rules), pairs, first)
+    signs, rules = _signs(block.parameters.get("Inputs", "2"), "*"), rules_of(block)
+    inputs = scalars(inputs[0]) if len(inputs) == 1 else _together(block, inputs)
+    signs = signs * len(inputs) if len(signs) == 1 else signs
+    found = inputs[0] if signs[0] == "*" else _quotient(block, double(1), inputs[0])
+    for sign, one in zip(signs[1:], inputs[1:], strict=True):
+        found = _quotient(block, found, one) if sign == "/" else binary(".*", found, one, rules)
     return [typed(block, found, types)]
+
+
+def _quotient(block: DrawnBlock, one: MatlabValue, other: MatlabValue) -> MatlabValue:
+    """A quotient; one of integers is rounded as the block says."""
+    found = binary("./", one, other, rules_of(block))
+    if found.kind not in WHOLE:
+        return found
+    places, size = _beside([found, one, other])
+    made = [f if b.value == 0 else _rounded(block, Fraction(a.value) / Fraction(b.value), f.kind)
+            for f, a, b in places]  # fmt: skip
+    return array(made, *size)
 
 
 def _signs(text: str, sign: str) -> str:
@@ -99,8 +167,18 @@ def _signs(text: str, sign: str) -> str:
 
 
 def _gain(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
-    factor = value_of(block.parameters.get("Gain", "1"))
-    return [typed(block, binary(".*", inputs[0], factor, rules_of(block)), types)]
+    value, factor = inputs[0], value_of(block.parameters.get("Gain", "1"))
+    if value.kind in FLOATS:
+        factor = each_converted(factor, value.kind, WRAPS)
+    said = block.parameters.get("OutDataTypeStr", "Inherit: Inherit via internal rule")
+    whole = all(one.value == int(one.value) for one in scalars(factor))
+    if value.kind in WHOLE and not whole and "internal rule" in said:
+        raise DrawnFault(f"an integer times a fraction is a fixed-point number: {SAY_TYPE}")
+    if value.kind not in WHOLE or (whole and said.startswith("Inherit")):
+        return [typed(block, binary(".*", value, factor, rules_of(block)), types)]
+    real, by = (each_converted(one, "double", WRAPS) for one in (value, factor))
+    exact = binary(".*", real, by, WRAPS)
+    return [as_said(block, exact, value.kind if said.startswith("Inherit") else types.kind(said))]
 
 
 def _switch(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -108,21 +186,15 @@ def _switch(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Value
     threshold = value_of(block.parameters.get("Threshold", "0"))
     sign = ">=" if ">=" in criteria else ">" if ">" in criteria else "!="
     control = binary(sign, inputs[1], threshold if sign != "!=" else double(0), WRAPS)
-    assert not isinstance(control, Structure)
-    return [typed(block, inputs[0] if control.truth else inputs[2], types)]
+    first, _, third = inputs if any(isinstance(v, Structure) for v in inputs) else _together(block, inputs)
+    return [typed(block, first if scalar(control).truth else third, types)]
 
 
 def _conversion(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     text = block.parameters.get("OutDataTypeStr", "Inherit")
     if text.startswith("Inherit"):
         return [inputs[0]]
-    kind, rounding = types.kind(text), block.parameters.get("RndMeth", "Floor")
-    if kind.endswith(("int8", "int16", "int32", "int64")):
-        ways = {"Floor": "floor", "Ceiling": "ceil", "Zero": "fix", "Nearest": "round", "Round": "round"}
-        if rounding not in ways:
-            raise DrawnFault(f"the rounding {rounding} is not known: Floor, Ceiling, Zero, Nearest or Round")
-        return [each_converted(BUILTINS[ways[rounding]]([inputs[0]], WRAPS), kind, rules_of(block))]
-    return [each_converted(inputs[0], kind, rules_of(block))]
+    return [as_said(block, inputs[0], types.kind(text))]
 
 
 def _same(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -166,12 +238,13 @@ def _demux(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueO
 
 def _extreme(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     sign = "<" if block.parameters.get("Function", "min") == "min" else ">"
-    every = [one for value in inputs for one in scalars(value)]
+    inputs = scalars(inputs[0]) if len(inputs) == 1 else _together(block, inputs)
 
     def better(one: Scalar, other: Scalar) -> Scalar:
         return other if scalar(binary(sign, other, one, WRAPS)).truth else one
 
-    return [typed(block, reduce(better, every), types)]
+    places, size = _beside(inputs)
+    return [typed(block, array([reduce(better, place) for place in places], *size), types)]
 
 
 def _saturated(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -204,13 +277,6 @@ BLOCKS: Mapping[str, BlockStep] = {
 }  # fmt: skip
 """What each kind of block gives; those with a memory are executed elsewhere."""
 
-_NAME = re.compile(r"[A-Za-z]\w*")
-
-
-def parameter(text: str, named: Mapping[str, str]) -> str:
-    """A parameter with its name, if it is one, replaced by its value as written."""
-    return named.get(text.strip(), text) if _NAME.fullmatch(text.strip()) else text
-
 
 def parsed_value(text: str) -> Expression:
     """The tree of a parameter.  Raises ``DrawnFault``."""
@@ -220,4 +286,4 @@ def parsed_value(text: str) -> Expression:
         raise DrawnFault(f"the parameter {text!r}: {error}") from error
 
 
-__all__ = ["BLOCKS", "BlockStep", "parameter", "parsed_value", "typed"]
+__all__ = ["BLOCKS", "BlockStep", "parsed_value", "typed"]

@@ -6,12 +6,13 @@ from fractions import Fraction
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Expression
-from rovercheck.checker.drawn.interpret.blocks import BLOCKS, parameter, parsed_value
+from rovercheck.checker.drawn.interpret.blocks import BLOCKS, parsed_value
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import (
+    TYPES,
     MatlabValue,
     NumberRules,
     Structure,
@@ -21,6 +22,7 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
+from rovercheck.checker.drawn.parameters import expanded, rate_of, values_of
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel, DrawnSystem
 from rovercheck.checker.drawn.refused import notes_of
@@ -40,7 +42,7 @@ class ModelRunner:
     def __init__(self, model: DrawnModel, step: str = "") -> None:
         self.model, self.types = model, TypeTable.of(model)
         self.step_length = step or model.step
-        self.named = {one.name: one.value for one in model.parameters}
+        self.named = values_of(model)
         for note in notes_of(model):
             if note.kind == "refused":
                 raise DrawnFault(str(note).rstrip("."))
@@ -57,14 +59,14 @@ class ModelRunner:
     def inputs(self) -> Iterator[str]:
         """The flat names of all inputs, in the order of their ports."""
         for port in self._inports:
-            yield from (name for name, _ in _flat(port.name, self._at_rest(port)))
+            yield from (name for name, _ in _flat(port.shown, self._at_rest(port)))
 
     def step(self, given: Mapping[str, Number]) -> dict[str, Number]:
         """One step: the outputs by their flat names.  An input that is not given is as at rest."""
-        values = [self._filled(port.name, self._at_rest(port), given) for port in self._inports]
+        values = [self._filled(port.shown, self._at_rest(port), given) for port in self._inports]
         found = self._top.step(values)
         pairs = zip(self._outports, found, strict=True)
-        return {name: one for port, value in pairs for name, one in _flat(port.name, value)}
+        return {name: one for port, value in pairs for name, one in _flat(port.shown, value)}
 
     def _at_rest(self, port: DrawnBlock) -> MatlabValue:
         kind = self.types.kind(port.parameters.get("OutDataTypeStr", "Inherit")) or "double"
@@ -85,7 +87,7 @@ class ModelRunner:
 
     def outputs(self) -> tuple[str, ...]:
         """The names of the outputs, as blocks."""
-        return tuple(port.name for port in self._outports)
+        return tuple(port.shown for port in self._outports)
 
     @property
     def fired(self) -> list[str]:
@@ -108,7 +110,7 @@ class ModelRunner:
 
     def value_of(self, text: str) -> MatlabValue:
         """The value of a parameter.  Raises ``DrawnFault``."""
-        tree = parsed_value(parameter(text, self.named))
+        tree = parsed_value(expanded(text, self.named))
         runner = StatementRunner(_NoChart.memory(self.types), _NoChart())
         return runner.value(tree, CallFrame(StateNode(0, "", "", None), NumberRules()))
 
@@ -158,10 +160,8 @@ class _System:
                 node.outputs = node.system.at_rest()
 
     def _node(self, block: DrawnBlock, wiring: SystemWiring) -> _Node:
-        ports = [int(port) for target, port in wiring.feeds if target == block.id and port.isdigit()]
-        inputs = [wiring.feeds.get((block.id, str(number))) for number in range(1, max(ports, default=0) + 1)]
         self._check(block)
-        node = _Node(block, inputs)
+        node = _Node(block, wiring.inputs_of(block))
         control = [port for target, port in wiring.feeds if target == block.id and not port.isdigit()]
         if control:
             node.control, node.fed = control[0], wiring.feeds[block.id, control[0]]
@@ -184,9 +184,10 @@ class _System:
     def _check(self, block: DrawnBlock) -> None:
         """Refuse what would make a block run at another rate, or begin anew.  Raises ``DrawnFault``."""
         path, parameters = " ".join(block.path.split()), block.parameters
-        rate = parameters.get("SampleTime", "-1").strip()
+        written = parameters.get("SampleTime", "-1")
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
-            rate = chart.sample_time.strip() or "-1"
+            written = chart.sample_time.strip() or "-1"
+        rate = rate_of(written, self._runner.named)
         if rate not in ("-1", "0", "inf") and not _same_number(rate, self._runner.step_length):
             step = self._runner.step_length
             raise DrawnFault(
@@ -266,7 +267,10 @@ class _System:
             if self._runs(node):
                 return node.system.step(values)
             return node.outputs
-        return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
+        try:
+            return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
+        except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
+            raise DrawnFault("its inputs and parameters do not fit each other") from error
 
     @staticmethod
     def _remembered(node: _Node) -> MatlabValue:
@@ -274,7 +278,11 @@ class _System:
         return node.memory
 
     def _values(self, node: _Node) -> list[MatlabValue]:
-        return [double(0) if port is None else self._value(port) for port in node.inputs]
+        """Of its inputs; one that is not connected is 0, in the type of the first that is."""
+        found = [None if port is None else self._value(port) for port in node.inputs]
+        kind = next((one.kind for one in found if one is not None), "double")
+        zero = each_converted(double(0), kind, NumberRules()) if kind in TYPES else double(0)
+        return [zero if one is None else one for one in found]
 
     def _value(self, port: tuple[str, int]) -> MatlabValue:
         node = self._by_id[port[0]]

@@ -17,8 +17,10 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
+from rovercheck.checker.drawn.parameters import expanded, seen_in
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
+from rovercheck.checker.drawn.type_names import plain_type
 
 ENUM, BUS = "Enum:", "Bus:"
 _SIZE = re.compile(r"\d{1,6}")
@@ -39,7 +41,7 @@ class TypeTable:
 
     def kind(self, written: str) -> str:
         """A type as values have it; empty where it is inherited.  Raises ``DrawnFault``."""
-        text = written.strip()
+        text = plain_type(written)
         if text.startswith("Inherit"):
             return ""
         if text in ("boolean", "logical"):
@@ -166,7 +168,7 @@ class ChartMemory:
 def _initial_of(one: DrawnData, chart: ParsedChart, named: Mapping[str, str]) -> str:
     """The initial value of a datum, as written; that of a parameter has its name."""
     if one.scope != "parameter" and not one.from_workspace:
-        return one.initial
+        return expanded(one.initial, seen_in(chart.drawn, named))
     if one.name not in named:
         raise DrawnFault(
             f"{chart.drawn.path}: the value of {one.name} stands in no file: name a script that says "

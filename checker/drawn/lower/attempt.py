@@ -85,7 +85,7 @@ class LoweringAttempt:
             kind, rows, columns = seen if seen else ("double", rows, columns)
         first = self.table.kinds.first_value(kind, rows, columns)
         made = []
-        for name, one in leaves(first, port.name):
+        for name, one in leaves(first, port.shown):
             domain = self.table.given.get(name) or self.table.kinds.domain(one.kind)
             if domain is None:
                 self._missing.append(name)
@@ -100,7 +100,7 @@ class LoweringAttempt:
         return {
             name: one.expr
             for port, value in zip(top.ends, ends, strict=True)
-            for name, one in leaves(value, port.block.name)
+            for name, one in leaves(value, port.block.shown)
         }
 
     def _written(self, outputs: Mapping[str, Expr]) -> list[tuple[Var, Expr]]:

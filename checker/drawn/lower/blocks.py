@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from fractions import Fraction
+from functools import partial, reduce
 
 from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary
 from rovercheck.checker.drawn.lower.builtins import greatest, least
@@ -15,9 +16,17 @@ from rovercheck.checker.drawn.lower.conversions import (
     in_range,
 )
 from rovercheck.checker.drawn.lower.kinds import KindTable
-from rovercheck.checker.drawn.lower.rounding import ceiling_of, floor_of, nearest_of, toward_zero
+from rovercheck.checker.drawn.lower.rounding import (
+    by_cases,
+    ceiling_of,
+    floor_of,
+    nearest_of,
+    sum_of,
+    toward_zero,
+)
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
+    REALS,
     NotLowered,
     Symbolic,
     SymbolicScalar,
@@ -34,11 +43,12 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.records import DrawnBlock
-from rovercheck.spec_model.lang.expr import Expr, all_of, any_of
+from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, const
 
 Inputs = Sequence[Symbolic]
 ROUNDINGS: Mapping[str, Callable[[Expr], Expr]] = {
-    "Floor": floor_of, "Ceiling": ceiling_of, "Zero": toward_zero, "Nearest": nearest_of, "Round": nearest_of
+    "Floor": floor_of, "Ceiling": ceiling_of, "Zero": toward_zero,
+    "Nearest": lambda one: floor_of(sum_of(one, const(Fraction(1, 2)))), "Round": nearest_of,
 }  # fmt: skip
 
 
@@ -57,7 +67,26 @@ class BlockTypes:
         """A value in the type that a block says, if it says one."""
         text = block.parameters.get("OutDataTypeStr", "Inherit")
         kind = "" if text.startswith(("Inherit", "Bus")) else self.kinds.kind(text)
-        return each_converted(value, kind, self.rules(block), self.kinds) if kind else value
+        return self.rounded(block, value, kind) if kind else value
+
+    def rounded(self, block: DrawnBlock, value: Symbolic, kind: str) -> Symbolic:
+        """A value in a type, rounded as the block says."""
+        if kind not in INTEGERS or isinstance(value, SymbolicStructure):
+            return each_converted(value, kind, self.rules(block), self.kinds)
+        round_ = rounding_of(block)
+        made = (
+            SymbolicScalar(kind, in_range(round_(as_number(one)), kind, self.rules(block).saturates))
+            for one in flat(value)
+        )
+        return matrix(list(made), *size_of(value))
+
+
+def rounding_of(block: DrawnBlock) -> Callable[[Expr], Expr]:
+    """How a block rounds: down if it says nothing.  Raises ``NotLowered``."""
+    way = block.parameters.get("RndMeth", "Floor")
+    if way not in ROUNDINGS:
+        raise NotLowered(f"the rounding {way}: {', '.join(ROUNDINGS)} are known")
+    return ROUNDINGS[way]
 
 
 BlockFormula = Callable[[DrawnBlock, Inputs, BlockTypes], list[Symbolic]]
@@ -65,20 +94,56 @@ WRAPS = IntegerRules(False, False)
 
 
 def _constant(block: DrawnBlock, _: Inputs, types: BlockTypes) -> list[Symbolic]:
-    return [types.typed(block, types.value_of(block.parameters.get("Value", "1")))]
+    value = types.value_of(block.parameters.get("Value", "1"))
+    text = block.parameters.get("OutDataTypeStr", "Inherit")
+    kind = "" if text.startswith(("Inherit", "Bus")) else types.kinds.kind(text)
+    return [each_converted(value, kind, types.rules(block), types.kinds) if kind else value]
+
+
+def _in_places(inputs: Inputs) -> tuple[list[tuple[SymbolicScalar, ...]], tuple[int, int]]:
+    """The elements of inputs place by place, where a scalar stands for all, and the size of them."""
+    wide = [one for one in inputs if size_of(one) != (1, 1)]
+    size = size_of(wide[0]) if wide else (1, 1)
+    if any(size_of(one) != size for one in wide):
+        raise NotLowered("its inputs are matrices of several sizes")
+    columns = [
+        tuple(flat(one)) if size_of(one) == size else tuple(flat(one)) * size[0] * size[1] for one in inputs
+    ]
+    return list(zip(*columns, strict=True)), size
+
+
+def _said(block: DrawnBlock) -> str:
+    """The output type that a block says, or how it inherits one."""
+    return block.parameters.get("OutDataTypeStr", "Inherit: Inherit via internal rule")
+
+
+def _operands(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> Inputs:
+    """What a block computes with: integers as real numbers beside one, and for a type that is said."""
+    kinds = [one.kind for one in inputs]
+    real = "double" if "double" in kinds else "single" if "single" in kinds else ""
+    if not real and not _said(block).startswith("Inherit") and not {"int64", "uint64"} & set(kinds):
+        real = "double"
+    return [
+        each_converted(one, real, WRAPS, types.kinds) if real and one.kind in INTEGERS else one
+        for one in inputs
+    ]
 
 
 def _logic(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     operator = block.parameters.get("Operator", "AND")
-    every = [as_condition(one) for value in inputs for one in flat(value)]
-    ways: Mapping[str, Callable[[], Expr]] = {
-        "AND": lambda: all_of(*every), "OR": lambda: any_of(*every), "NOT": lambda: ~every[0],
-        "NAND": lambda: ~all_of(*every), "NOR": lambda: ~any_of(*every),
-        "XOR": lambda: reduce(_either, every), "NXOR": lambda: ~reduce(_either, every),
+    ways: Mapping[str, Callable[[Sequence[Expr]], Expr]] = {
+        "AND": lambda every: all_of(*every), "OR": lambda every: any_of(*every),
+        "NOT": lambda every: ~every[0],
+        "NAND": lambda every: ~all_of(*every), "NOR": lambda every: ~any_of(*every),
+        "XOR": lambda every: reduce(_either, every), "NXOR": lambda every: ~reduce(_either, every),
     }  # fmt: skip
     if operator not in ways:
         raise NotLowered(f"the operator {operator} of a Logic block")
-    return [truth(folded(ways[operator]()))]
+    if len(inputs) == 1 and operator != "NOT":
+        return [types.typed(block, truth(folded(ways[operator]([as_condition(v) for v in flat(inputs[0])]))))]
+    places, size = _in_places(inputs)
+    made = [truth(folded(ways[operator]([as_condition(one) for one in place]))) for place in places]
+    return [types.typed(block, matrix(made, *size))]
 
 
 def _either(one: Expr, other: Expr) -> Expr:
@@ -98,6 +163,8 @@ def _signs(text: str, sign: str) -> str:
 
 def _sum(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     signs, rules = _signs(block.parameters.get("Inputs", "++"), "+"), types.rules(block)
+    inputs = flat(inputs[0]) if len(inputs) == 1 else _operands(block, inputs, types)
+    signs = signs * len(inputs) if len(signs) == 1 else signs
     first = inputs[0] if signs[0] == "+" else unary("-", inputs[0], rules)
     for sign, value in zip(signs[1:], inputs[1:], strict=True):
         first = binary(sign, first, value, rules)
@@ -106,15 +173,51 @@ def _sum(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]
 
 def _product(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     signs, rules = _signs(block.parameters.get("Inputs", "2"), "*"), types.rules(block)
-    first = inputs[0] if signs[0] == "*" else binary("./", number("double", 1), inputs[0], rules)
+    inputs = flat(inputs[0]) if len(inputs) == 1 else _operands(block, inputs, types)
+    signs = signs * len(inputs) if len(signs) == 1 else signs
+    first = inputs[0] if signs[0] == "*" else _quotient(block, number("double", 1), inputs[0], types)
     for sign, value in zip(signs[1:], inputs[1:], strict=True):
-        first = binary(f".{sign}", first, value, rules)
+        divides = sign == "/"
+        first = _quotient(block, first, value, types) if divides else binary(".*", first, value, rules)
     return [types.typed(block, first)]
 
 
+def _quotient(block: DrawnBlock, one: Symbolic, other: Symbolic, types: BlockTypes) -> Symbolic:
+    """A quotient; one of integers is rounded as the block says, and by 0 it is an end of its type."""
+    found, rules = binary("./", one, other, types.rules(block)), types.rules(block)
+    if found.kind not in INTEGERS:
+        return found
+    round_, (low, high) = rounding_of(block), INTEGERS[found.kind]
+    places, size = _in_places([one, other])
+
+    def divided(value: Expr, divisor: Fraction) -> Expr:
+        if divisor:
+            return in_range(round_(folded(value / divisor)), found.kind, rules.saturates)
+        return chosen(folded(value > 0), const(high), chosen(folded(value < 0), const(low), const(0)))
+
+    made = [
+        SymbolicScalar(found.kind, by_cases(as_number(b), partial(divided, as_number(a)))) for a, b in places
+    ]
+    return matrix(made, *size)
+
+
 def _gain(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
-    factor = types.value_of(block.parameters.get("Gain", "1"))
-    return [types.typed(block, binary(".*", inputs[0], factor, types.rules(block)))]
+    value, factor = inputs[0], types.value_of(block.parameters.get("Gain", "1"))
+    if value.kind not in INTEGERS:
+        if value.kind in REALS:
+            factor = each_converted(factor, value.kind, WRAPS, types.kinds)
+        return [types.typed(block, binary(".*", value, factor, types.rules(block)))]
+    numbers, said = [one.constant for one in flat(factor)], _said(block)
+    whole = all(one is not None and one.denominator == 1 for one in numbers)
+    if whole and said.startswith("Inherit"):
+        return [binary(".*", value, factor, types.rules(block))]
+    if "internal rule" in said:
+        raise NotLowered(
+            "an integer times a fraction is a fixed-point number: give the block an output type, as int32"
+        )
+    real, by = (each_converted(one, "double", WRAPS, types.kinds) for one in (value, factor))
+    exact = binary(".*", real, by, WRAPS)
+    return [types.rounded(block, exact, value.kind if said.startswith("Inherit") else types.kinds.kind(said))]
 
 
 def _switch(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
@@ -122,7 +225,10 @@ def _switch(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbol
     threshold = types.value_of(block.parameters.get("Threshold", "0"))
     sign = ">=" if ">=" in criteria else ">" if ">" in criteria else "!="
     control = binary(sign, inputs[1], threshold if sign != "!=" else number("double", 0), WRAPS)
-    return [types.typed(block, either(single_of(control).expr, inputs[0], inputs[2], types.kinds))]
+    first, _, third = inputs
+    if not isinstance(first, SymbolicStructure):
+        first, _, third = _operands(block, inputs, types)
+    return [types.typed(block, either(single_of(control).expr, first, third, types.kinds))]
 
 
 def either(condition: Expr, one: Symbolic, other: Symbolic, kinds: KindTable) -> Symbolic:
@@ -139,17 +245,7 @@ def _conversion(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Sy
     text = block.parameters.get("OutDataTypeStr", "Inherit")
     if text.startswith("Inherit"):
         return [inputs[0]]
-    kind, rounding = types.kinds.kind(text), block.parameters.get("RndMeth", "Floor")
-    if kind not in INTEGERS:
-        return [each_converted(inputs[0], kind, types.rules(block), types.kinds)]
-    if rounding not in ROUNDINGS:
-        raise NotLowered(f"the rounding {rounding}: Floor, Ceiling, Zero, Nearest or Round are known")
-    saturates = types.rules(block).saturates
-    made = (
-        SymbolicScalar(kind, in_range(ROUNDINGS[rounding](as_number(one)), kind, saturates))
-        for one in flat(inputs[0])
-    )
-    return [matrix(list(made), *size_of(inputs[0]))]
+    return [types.rounded(block, inputs[0], types.kinds.kind(text))]
 
 
 def _same(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
@@ -197,13 +293,14 @@ def _demux(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symboli
 
 def _extreme(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     join = least if block.parameters.get("Function", "min") == "min" else greatest
-    every = [one for value in inputs for one in flat(value)]
+    inputs = flat(inputs[0]) if len(inputs) == 1 else _operands(block, inputs, types)
 
     def better(one: SymbolicScalar, other: SymbolicScalar) -> SymbolicScalar:
         kind = scalar_of("+", one, other, WRAPS).kind
         return SymbolicScalar(kind, join(as_number(one), as_number(other)))
 
-    return [types.typed(block, reduce(better, every))]
+    places, size = _in_places(inputs)
+    return [types.typed(block, matrix([reduce(better, place) for place in places], *size))]
 
 
 def _saturated(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:

@@ -22,6 +22,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.lower.view import ChartView
+from rovercheck.checker.drawn.parameters import expanded, seen_in
 from rovercheck.checker.drawn.parsed import FunctionNode, ParsedChart, StateNode, output_events
 from rovercheck.checker.drawn.records import DrawnData
 from rovercheck.spec_model.lang.expr import FALSE, Var
@@ -81,7 +82,7 @@ class ChartDataWriter(StatementWriter):
 
     def _initial(self, one: DrawnData, name: str) -> Symbolic:
         kind, (rows, columns) = self.table.kinds.kind(one.type), sizes(one.size)
-        text = one.initial
+        text = expanded(one.initial, seen_in(self.chart.drawn, self._values_named))
         if one.scope == "parameter" or one.from_workspace:
             if one.name not in self._values_named:
                 raise NotLowered(

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
-from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Name
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage
 from rovercheck.checker.drawn.lower.blocks import BlockTypes
 from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.data import DataTable
@@ -14,6 +14,7 @@ from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
 from rovercheck.checker.drawn.lower.view import ChartView
+from rovercheck.checker.drawn.parameters import expanded, values_of
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnChart, DrawnContent, DrawnModel
 from rovercheck.spec_model.lang.expr import Expr, Var
@@ -33,7 +34,7 @@ class LoweringContext:
         self.step, self.most = step, most
         self.names = ModelNames(model)
         self.types = BlockTypes(table.kinds, self.value_of)
-        self.named = {one.name: one.value for one in model.parameters}
+        self.named = values_of(model)
         self.data: dict[str, Expr] = {}
         self.views: dict[str, ChartView] = {}
         self.starts: list[ProgramWriter] = []
@@ -45,9 +46,7 @@ class LoweringContext:
     def value_of(self, text: str) -> Symbolic:
         """The value of a parameter.  Raises ``NotLowered``."""
         try:
-            tree = parse_expression(text, ActionLanguage.MATLAB)
-            if isinstance(tree, Name) and tree.name in self.named:
-                tree = parse_expression(self.named[tree.name], ActionLanguage.MATLAB)
+            tree = parse_expression(expanded(text, self.named), ActionLanguage.MATLAB)
         except GrammarError as error:
             raise NotLowered(f"the parameter {text!r}: {error}") from error
         bare = ParsedChart(

@@ -18,6 +18,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.records import DrawnBus, DrawnEnumeration, DrawnModel
+from rovercheck.checker.drawn.type_names import plain_type
 from rovercheck.spec_model.lang.domain import Domain, boolean, enumeration, integer
 from rovercheck.spec_model.lang.expr import FALSE, Const
 
@@ -41,7 +42,7 @@ class KindTable:
 
     def kind(self, written: str) -> str:
         """A type as written, in one way; empty where it is inherited.  Raises ``NotLowered``."""
-        text = written.strip()
+        text = plain_type(written)
         if text.startswith("Inherit") or not text:
             return ""
         if text in ("boolean", LOGICAL):

@@ -15,7 +15,7 @@ class ModelNames:
         self._taken = _shared_names(model)
         self._blocks: dict[str, str] = {}
         self._data = {one.name for chart in model.charts for one in chart.content.data}
-        self._data |= {one.name for one in model.system.blocks if one.kind in ("Inport", "Outport")}
+        self._data |= {one.shown for one in model.system.blocks if one.kind in ("Inport", "Outport")}
 
     def of_chart(self, chart: DrawnChart) -> str:
         """The name of a chart in the system."""
@@ -49,7 +49,7 @@ def _chart_names(charts: Sequence[DrawnChart]) -> dict[str, str]:
 def _shared_names(model: DrawnModel) -> set[str]:
     """Names that are no name of one datum alone: of several data, of root inputs, or of other outputs."""
     seen: list[str] = [d.name for chart in model.charts for d in chart.content.data if d.scope != "input"]
-    ports = [one.name for one in model.system.blocks if one.kind == "Inport"]
+    ports = [one.shown for one in model.system.blocks if one.kind == "Inport"]
     return {name for name in seen if seen.count(name) > 1} | set(ports)
 
 

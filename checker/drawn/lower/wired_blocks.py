@@ -9,6 +9,9 @@ from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_conver
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
+    INTEGERS,
+    LOGICAL,
+    REALS,
     UNTYPED,
     NotLowered,
     Symbolic,
@@ -18,11 +21,14 @@ from rovercheck.checker.drawn.lower.symbols import (
     number,
     single_of,
     size_of,
+    truth,
 )
 from rovercheck.checker.drawn.lower.view import plain_name
+from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 from rovercheck.checker.drawn.wiring import Port, SystemWiring, number_of, wired
 from rovercheck.spec_model.lang.chart import Block, Component
+from rovercheck.spec_model.lang.expr import FALSE
 from rovercheck.spec_model.lang.walk import variables
 
 
@@ -56,16 +62,15 @@ class WiredBlocks:
 
     def _node(self, block: DrawnBlock) -> BlockNode:
         feeds = self._wiring.feeds
-        ports = [int(port) for target, port in feeds if target == block.id and port.isdigit()]
-        inputs = [feeds.get((block.id, str(n))) for n in range(1, max(ports, default=0) + 1)]
-        node = BlockNode(block, inputs)
+        node = BlockNode(block, self._wiring.inputs_of(block))
         control = [port for target, port in feeds if target == block.id and not port.isdigit()]
         if control:
             node.control, node.fed = control[0], feeds[block.id, control[0]]
-        rate = block.parameters.get("SampleTime", "-1").strip()
+        rate = block.parameters.get("SampleTime", "-1")
         if block.chart:
             chart = self.context.chart(block.chart).drawn
             rate = chart.sample_time.strip() or "-1" if chart.update == "discrete" else rate
+        rate = rate_of(rate, self.context.named)
         if rate not in ("-1", "0", "inf") and not _same(rate, self.context.step):
             raise NotLowered(
                 f"the block {block.path} runs every {rate} s, and the model every {self.context.step} s: "
@@ -87,7 +92,12 @@ class WiredBlocks:
         return None
 
     def _values(self, node: BlockNode) -> list[Symbolic]:
-        return [number("double", 0) if port is None else self._value(port) for port in node.inputs]
+        """Of its inputs; one that is not connected is 0, in the type of the first that is."""
+        found = [None if port is None else self._value(port) for port in node.inputs]
+        kind = next((one.kind for one in found if one is not None), "double")
+        plain = kind in INTEGERS or kind in REALS
+        zero = truth(FALSE) if kind == LOGICAL else number(kind if plain else "double", 0)
+        return [zero if one is None else one for one in found]
 
     def _value(self, port: Port) -> Symbolic:
         node = self._by_id.get(port[0])

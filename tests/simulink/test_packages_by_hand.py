@@ -1,0 +1,240 @@
+"""What files of Simulink have and the writer of this project does not write is read as it is meant."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from zipfile import ZipFile
+
+import pytest
+
+from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.simulink.model import read_model
+from tests.simulink.packages_by_hand import block, chart, datum, model, ports, refused, run, signal
+
+ROWS = [{"a": 7, "b": 2}, {"a": -7, "b": 2}]
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "expected"),
+    [
+        ("Logic", {}, [0, 0]), ("Logic", {"Operator": "OR"}, [1, 1]), ("Logic", {"Operator": "NOT"}, [0, 0]),
+        ("Sum", {"Inputs": "|-+"}, [-7, 7]), ("Sum", {"Inputs": "3"}, [7, -7]),
+        ("RelationalOperator", {}, [0, 1]), ("Product", {}, [0, 0]), ("Switch", {}, [7, -7]),
+    ],
+)  # fmt: skip
+def test_an_input_that_is_not_connected_is_0(
+    kind: str, values: Mapping[str, object], expected: list[int], tmp_path: Path
+) -> None:
+    """It was left out: a Logic block with one signal gave that signal, and a Sum an internal error."""
+    read = model(ports(5, "a") + block(kind, "it", 5, "", **values), tmp_path)
+    assert run(read, [{"a": one["a"]} for one in ROWS]) == [(one,) for one in expected]
+
+
+def test_more_ports_than_signals_are_told_by_the_counts_of_either_layout(tmp_path: Path) -> None:
+    for inside, values in (('<PortCounts in="3" out="1"/>', {}), ("", {"Ports": "[3, 1]"})):
+        read = model(ports(5, "ab") + block("Logic", "it", 5, inside, **values), tmp_path)
+        assert run(read, ROWS) == [(0,), (0,)]
+
+
+def test_an_output_of_the_model_to_which_nothing_is_connected_is_0(tmp_path: Path) -> None:
+    assert run(model(block("Outport", "y", 1), tmp_path), [{}, {}]) == [(0,), (0,)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "expected"),
+    [
+        ("Product", {"Inputs": "*/"}, [3, -4]), ("Product", {"Inputs": "*/", "RndMeth": "Ceiling"}, [4, -3]),
+        ("Product", {"Inputs": "*/", "RndMeth": "Zero"}, [3, -3]),
+        ("Product", {"Inputs": "*/", "RndMeth": "Nearest"}, [4, -3]),
+        ("Product", {"Inputs": "*/", "RndMeth": "Round"}, [4, -4]),
+        ("Product", {"OutDataTypeStr": "int16"}, [14, -14]), ("Sum", {"OutDataTypeStr": "double"}, [9, -5]),
+    ],
+)  # fmt: skip
+def test_a_block_rounds_as_it_says_and_down_if_it_says_nothing(
+    kind: str, values: Mapping[str, object], expected: list[int], tmp_path: Path
+) -> None:
+    """Quotients of integers were rounded to the nearest."""
+    read = model(ports(5) + block(kind, "it", 5, "", **values), tmp_path)
+    assert run(read, ROWS) == [(one,) for one in expected]
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "a", "expected"),
+    [
+        ("Gain", {"Gain": "0.5", "OutDataTypeStr": "int8"}, -7, -4),
+        ("Gain", {"Gain": "0.5", "OutDataTypeStr": "Inherit: Same as input", "RndMeth": "Zero"}, -7, -3),
+        ("Gain", {"Gain": "3", "OutDataTypeStr": "int16"}, 100, 300), ("Gain", {"Gain": "3"}, 100, 44),
+        ("DataTypeConversion", {"OutDataTypeStr": "uint8", "RndMeth": "Floor"}, -1, 255),
+    ],
+)  # fmt: skip
+def test_the_output_type_of_a_block_is_that_of_its_exact_result(
+    kind: str, values: Mapping[str, object], a: int, expected: int, tmp_path: Path
+) -> None:
+    assert run(model(ports(5, "a") + block(kind, "it", 5, "", **values), tmp_path), [{"a": a}]) == [
+        (expected,)
+    ]
+
+
+@pytest.mark.parametrize(("kind", "expected"), [("Sum", 200), ("Product", 10_000)])
+def test_a_result_in_a_wider_type_does_not_wrap_before(kind: str, expected: int, tmp_path: Path) -> None:
+    """It wrapped in the type of the inputs."""
+    read = model(ports(5) + block(kind, "it", 5, OutDataTypeStr="int16"), tmp_path)
+    assert run(read, [{"a": 100, "b": 100}]) == [(expected,)]
+
+
+def test_a_product_may_begin_with_a_division(tmp_path: Path) -> None:
+    half = block("Constant", "half", 1, Value="0.5") + signal("1#out:1", "5#in:1")
+    three = block("Constant", "three", 2, Value="3") + signal("2#out:1", "5#in:2")
+    read = model(half + three + ports(5, "") + block("Product", "it", 5, Inputs="/*"), tmp_path)
+    assert run(read, [{}]) == [(6,)]
+
+
+def test_an_integer_times_a_fraction_is_refused_without_an_output_type(tmp_path: Path) -> None:
+    """It was rounded to a whole number; in Simulink it is a fixed-point number."""
+    for said in refused(model(ports(5, "a") + block("Gain", "it", 5, Gain="0.5"), tmp_path)):
+        assert said.startswith("it: an integer times a fraction is a fixed-point number: give the block an")
+
+
+def test_an_integer_beside_a_real_number_is_a_real_number(tmp_path: Path) -> None:
+    """The sum was one of integers, as in MATLAB."""
+    half = block("Constant", "half", 3, Value="0.5") + signal("3#out:1", "5#in:2")
+    read = model(ports(5, "a") + half + block("Sum", "it", 5, Inputs="++"), tmp_path)
+    assert run(read, [{"a": 7}]) == [(7.5,)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "expected"),
+    [
+        ("Logic", {}, (1, 0)), ("Logic", {"Operator": "NOR"}, (0, 0)), ("MinMax", {"Inputs": "2"}, (1, 0)),
+        ("MinMax", {"Function": "max"}, (1, 3)),
+    ],
+)  # fmt: skip
+def test_vectors_are_combined_element_by_element(
+    kind: str, values: Mapping[str, object], expected: tuple[int, ...], tmp_path: Path
+) -> None:
+    """All elements of all inputs gave one number."""
+    text = "".join(
+        block("Constant", f"c{n}", n, Value=value) + signal(f"{n}#out:1", f"5#in:{n}")
+        for n, value in enumerate(("[1 0]", "[1 3]"), 1)
+    )
+    assert run(model(text + ports(5, "") + block(kind, "it", 5, "", **values), tmp_path), [{}]) == [expected]
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "expected"),
+    [
+        ("Logic", {"Operator": "OR", "Inputs": "1"}, (1,)), ("Logic", {"Operator": "NOT"}, (0, 1)),
+        ("Sum", {"Inputs": "1"}, (3,)), ("Sum", {"Inputs": "-"}, (-3,)), ("Product", {"Inputs": "*"}, (0,)),
+        ("MinMax", {}, (0,)),
+    ],
+)  # fmt: skip
+def test_the_elements_of_one_vector_are_combined(
+    kind: str, values: Mapping[str, object], expected: tuple[int, ...], tmp_path: Path
+) -> None:
+    text = block("Constant", "c", 1, Value="[3 0]") + signal("1#out:1", "5#in:1")
+    assert run(model(text + ports(5, "") + block(kind, "it", 5, "", **values), tmp_path), [{}]) == [expected]
+
+
+def test_a_real_number_times_a_gain_of_integers_is_a_real_number(tmp_path: Path) -> None:
+    """It was an integer, as in MATLAB."""
+    half = block("Constant", "half", 1, Value="0.5") + signal("1#out:1", "5#in:1")
+    read = model(half + ports(5, "") + block("Gain", "it", 5, Gain="int8(3)"), tmp_path)
+    assert run(read, [{}]) == [(1.5,)]
+
+
+# --- what is left out --------------------------------------------------------------------------------------
+
+GAIN = signal("1#out:1", "6#in:1") + signal("6#out:1", "5#in:1")
+
+
+def test_a_block_that_is_commented_out_gives_nothing(tmp_path: Path) -> None:
+    """It was executed."""
+    doubled = block("Gain", "twice", 6, Gain="2", Commented="on") + GAIN
+    b = block("Inport", "b", 2, Port="2", OutDataTypeStr="int8") + signal("2#out:1", "5#in:2")
+    a = block("Inport", "a", 1, OutDataTypeStr="int8")
+    y = block("Outport", "y", 90) + signal("5#out:1", "90#in:1")
+    assert run(model(a + b + y + doubled + block("Sum", "it", 5), tmp_path), ROWS) == [(2,), (2,)]
+
+
+def test_a_block_that_is_commented_through_is_refused(tmp_path: Path) -> None:
+    read = model(ports(5, "a") + block("Gain", "twice", 5, Gain="2", Commented="through"), tmp_path)
+    assert [str(note) for note in notes_of(read)] == [
+        "twice, Gain block 5: it is commented through. Delete it, and draw the signal past it."
+    ]
+
+
+def test_an_annotation_is_no_block(tmp_path: Path) -> None:
+    note = '<Annotation SID="7"><P Name="Name">What it does&#xA;and why</P></Annotation>'
+    assert run(model(ports(5, "a") + note + block("Gain", "it", 5), tmp_path), [{"a": 3}]) == [(3,)]
+
+
+@pytest.mark.parametrize(("kind", "port"), [("EnablePort", "enable"), ("TriggerPort", "trigger")])
+def test_a_control_port_to_which_nothing_is_connected_is_refused(
+    kind: str, port: str, tmp_path: Path
+) -> None:
+    """The subsystem was executed in every step, and Simulink never executes it."""
+    inside = f"<System>{block(kind, 'control', 7)}{block('Outport', 'o', 8)}</System>"
+    read = model(ports(5, "") + block("SubSystem", "it", 5, inside), tmp_path)
+    said = f"it, SubSystem block 5: nothing is connected to its port {port}. Connect a signal, or delete the"
+    assert all(one.startswith(said) for one in [str(note) for note in notes_of(read)])
+    assert refused(read)[0].startswith(said)
+
+
+def test_a_subsystem_with_two_control_ports_is_refused(tmp_path: Path) -> None:
+    """One of them was not looked at."""
+    both = block("EnablePort", "e", 7) + block("TriggerPort", "t", 8)
+    lines = signal("1#out:1", "5#enable") + signal("2#out:1", "5#trigger")
+    read = model(ports(5) + lines + block("SubSystem", "it", 5, f"<System>{both}</System>"), tmp_path)
+    assert [str(note) for note in notes_of(read)] == [
+        "it, SubSystem block 5: it has the ports enable and trigger. Put what the second controls into a "
+        "subsystem in it."
+    ]
+
+
+# --- defaults ----------------------------------------------------------------------------------------------
+
+LISTED = '<Block BlockType="Sum"><P Name="Inputs">+-</P></Block><Block BlockType="Gain"/>'
+
+
+def test_a_model_says_what_blocks_are_that_say_nothing(tmp_path: Path) -> None:
+    """The defaults of the sheet were taken in place of those of the model."""
+    more = f"<BlockParameterDefaults>{LISTED}</BlockParameterDefaults>"
+    assert run(model(ports(5) + block("Sum", "it", 5), tmp_path, more), ROWS) == [(5,), (-9,)]
+    assert run(model(ports(5) + block("Sum", "it", 5, Inputs="++"), tmp_path, more), ROWS) == [(9,), (-5,)]
+
+
+def test_newer_releases_say_it_in_a_part_of_its_own(tmp_path: Path) -> None:
+    model(ports(5) + block("Sum", "it", 5), tmp_path)
+    with ZipFile(tmp_path / "hand.slx", "a") as package:
+        listed = f"<BlockParameterDefaults>{LISTED}</BlockParameterDefaults>"
+        package.writestr("simulink/bddefaults.xml", f"<BlockDiagramDefaults>{listed}</BlockDiagramDefaults>")
+    assert run(read_model(tmp_path / "hand.slx"), ROWS) == [(5,), (-9,)]
+
+
+# --- charts ------------------------------------------------------------------------------------------------
+
+DATA = (
+    datum(10, "q", "INPUT_DATA") + datum(11, "p", "INPUT_DATA") + datum(12, "y", "OUTPUT_DATA")
+    + datum(13, "z", "OUTPUT_DATA")
+)  # fmt: skip
+INSIDE = "".join(
+    block(kind, name, sid, "", **({"Port": port} if port > 1 else {}))
+    for sid, (kind, name, port) in enumerate(
+        [("Inport", "q", 2), ("Inport", "p", 1), ("Outport", "z", 1), ("Outport", "y", 2)], 20
+    )
+)
+CHART = '<P Name="SFBlockType">Chart</P><System>{}</System>'
+
+
+def test_data_have_the_ports_of_the_block_and_not_those_of_their_order(tmp_path: Path) -> None:
+    """The first input in the file was the first port, whatever the block says."""
+    block_ = block("SubSystem", "C", 5, CHART.format(INSIDE))
+    label = chart("A&#xA;en, du: y = p - q; z = p;", DATA)
+    read = model(ports(5, "ab", "zy") + block_, tmp_path, "", label)
+    assert run(read, ROWS) == [(7, 5), (-7, -9)]
+
+
+def test_a_chart_of_which_the_block_is_commented_out_is_none(tmp_path: Path) -> None:
+    block_ = block("SubSystem", "C", 5, CHART.format(INSIDE), Commented="on")
+    read = model(ports(5, "ab", "zy") + block_, tmp_path, "", chart("A", DATA))
+    assert read.charts == ()
+    assert run(read, ROWS) == [(0, 0), (0, 0)]
