@@ -41,11 +41,16 @@ class DrawingNote:
 
 LONGEST = 100
 """Letters of the name of a state in a note."""
+GENERATOR = "a generator of function calls. Let a chart send an event in each step"
 BLOCKS: Mapping[str, str] = {
     "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
     "ModelReference": "another model. Import that model by itself",
     "S-Function": "C code, which is not read. Put a MATLAB function in its place",
     "MATLABFcn": "an interpreted function of MATLAB. Put a MATLAB Function block in its place",
+    "FunctionCallSplit": "a split of a function call. Send an event for each block that it leads to",
+    "FunctionCallGenerator": GENERATOR,
+    "FunctionCallFeedbackLatch": "a latch of a function call. Put a Unit Delay in its place",
+    "FunctionCaller": "a call of a Simulink function. Call it in a chart",
     "Integrator": "continuous time. Use a discrete-time block",
     "TransferFcn": "continuous time. Use a discrete-time block",
     "StateSpace": "continuous time. Use a discrete-time block",
@@ -76,7 +81,9 @@ def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
 def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
     """Why a block has no meaning here."""
     if block.kind in BLOCKS:
-        yield f"it is {BLOCKS[block.kind]}."
+        source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
+        generates = source == "Function-Call Generator" or name == "fcncallgen"
+        yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}."
     if block.parameters.get("Commented") == "through":
         yield "it is commented through. Delete it, and draw the signal past it."
     if block.kind != "SubSystem" or block.system is None or block.chart:

@@ -85,7 +85,6 @@ class ChartMachine:
 
     def step(self, events: Sequence[str] = ()) -> None:
         """One step with the inputs as they are; with input events, one execution for each of them."""
-        self.fired = []
         self.memory.note_start()
         self.clock.begin(self.active)
         if self.chart.drawn.initializes_outputs:

@@ -24,6 +24,10 @@ from rovercheck.spec_model.lang.system import Statement
 MOST_STATEMENTS = 100_000
 
 
+ProgramPart = tuple[list[Statement], int]
+"""Statements that are used in several places, and how many assignments they have."""
+
+
 class TooManyStatements(Exception):
     """The step of a chart is longer than it may be."""
 
@@ -147,7 +151,7 @@ class ProgramWriter:
         self._rows, self._open = rows, opened
         return first
 
-    def alone(self, write: Callable[[], None]) -> tuple[list[Statement], int]:
+    def alone(self, write: Callable[[], None]) -> ProgramPart:
         """The same of a part that is used in several places: nothing is known before it, nor ended by it.
 
         The answer says, too, how many assignments it has, which do not count until it is included.
@@ -336,4 +340,9 @@ def _alike(one: dict[str, Const], other: dict[str, Const]) -> dict[str, Const]:
     }
 
 
-__all__ = ["MOST_STATEMENTS", "ProgramWriter", "TooManyStatements"]
+def joined(*parts: ProgramPart) -> ProgramPart:
+    """Parts one after the other."""
+    return [one for statements, _ in parts for one in statements], sum(size for _, size in parts)
+
+
+__all__ = ["MOST_STATEMENTS", "ProgramPart", "ProgramWriter", "TooManyStatements", "joined"]
