@@ -74,8 +74,8 @@ def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
         name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
         for text in _of_block(block, system):
             yield DrawingNote("refused", name, what, text, system.part, None, block.line)
-        if block.system is not None and not block.chart:
-            yield from _blocks(block.system)
+        for inner in block.systems():
+            yield from _blocks(inner)
 
 
 def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:

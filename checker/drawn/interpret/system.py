@@ -23,6 +23,7 @@ from rovercheck.checker.drawn.interpret.values import (
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
+from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
 from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
 
 RESET = (("StatesWhenEnabling", "EnablePort", "TriggerPort"), ("OutputWhenDisabled", "Outport"))
@@ -61,6 +62,8 @@ class BlockAtWork:
     outputs: list[MatlabValue] = field(default_factory=list)
     was: list[float] = field(default_factory=list)
     """The values of its trigger in the step before."""
+    functions: "list[SystemAtWork]" = field(default_factory=list)
+    """Of a chart its Simulink functions."""
     calls: Mapping[str, FunctionCall | None] = field(default_factory=dict)
     """Of a chart its events that are function calls, and what they call."""
     called: bool = False
@@ -96,6 +99,10 @@ class SystemAtWork:
                 raise DrawnFault(str(chart.notes[0]))
             runner = self._runner
             node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
+            for function in simulink_functions(block, chart):
+                inside = SystemAtWork(function.system, runner)
+                node.functions.append(inside)
+                node.chart.executed[function.node.drawn.ssid] = partial(_executed, function, inside)
         elif block.kind == "SubSystem" and block.system is not None:
             node.system = SystemAtWork(block.system, self._runner)
             ports_ = [one for one in block.system.blocks if one.kind == "TriggerPort"]
@@ -147,6 +154,8 @@ class SystemAtWork:
     def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
         """Charts that are so drawn are entered before the first step, with inputs at rest."""
         for node in self._nodes:
+            for one in node.functions:
+                one.initialize()
             if node.chart is not None and node.chart.chart.drawn.kind not in FUNCTIONS:
                 if node.chart.chart.drawn.at_initialization:
                     self._feed_at_rest(node, node.chart, inputs)
@@ -172,6 +181,8 @@ class SystemAtWork:
         for node in self._nodes:
             if node.chart is not None:
                 yield node.chart
+            for one in node.functions:
+                yield from one.machines()
             if node.system is not None:
                 yield from node.system.machines()
 
@@ -295,6 +306,14 @@ def _told(node: BlockAtWork) -> Iterator[None]:
         yield
     except DrawnFault as fault:
         raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+
+
+def _executed(
+    function: SimulinkFunction, system: SystemAtWork, given: Mapping[str, MatlabValue]
+) -> Mapping[str, MatlabValue]:
+    """What a Simulink function gives for some arguments."""
+    found = system.step([given[name] for name in function.inputs])
+    return dict(zip(function.outputs, found, strict=True))
 
 
 def _woken(machine: ChartMachine, events: Sequence[str] | None) -> list[MatlabValue]:

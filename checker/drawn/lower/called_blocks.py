@@ -4,17 +4,20 @@ from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Protocol
 
 from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.chart_blocks import FUNCTIONS, ChartBlockWriter
+from rovercheck.checker.drawn.lower.chart_functions import ExecutedFunction
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramPart, ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.parsed import ParsedChart, output_events
 from rovercheck.checker.drawn.records import DrawnSystem
+from rovercheck.checker.drawn.simulink_functions import simulink_functions
 from rovercheck.spec_model.lang.action import Assign, If, each_action
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expr import Var
@@ -56,8 +59,26 @@ class ExecutedParts:
         self.charts.append(chart.with_program(StepProgram((), starting=program.starting)))
 
 
+class InnerSystem(Protocol):
+    """What writes a system of blocks."""
+
+    def lowered(self, given: Sequence[Symbolic]) -> tuple[tuple[Component, ...], list[Symbolic]]:
+        """The components in order, and the outputs."""
+
+    def delays(self) -> list[Component]:
+        """What its delays remember, once all else is done."""
+
+
+def _part(statements: list[Statement]) -> ProgramPart:
+    return statements, sum(1 for _ in each_action(statements))
+
+
 class CalledBlockWriter(ChartBlockWriter):
     """The blocks of one system that charts in it call."""
+
+    @abstractmethod
+    def _inner(self, name: str, system: DrawnSystem) -> "InnerSystem":
+        """The writer of a system in this one, which is in a block of that name."""
 
     @abstractmethod
     def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
@@ -75,16 +96,36 @@ class CalledBlockWriter(ChartBlockWriter):
 
     def _call_all(self, node: BlockNode, chart: ParsedChart, made: ChartWriter) -> list[ProgrammedChart]:
         calls, parts = self._calls_of(node, chart), ExecutedParts()
+        made.executed = self._functions(node, chart, made, parts)
         written: dict[FunctionCall, ProgramPart] = {}
         every = [call for call in calls.values() if call is not None]
         for target in self._in_order({call.target for call in every}):
             own = [call for call in every if call.target == target]
             written |= zip(own, self._called(self._by_id[target], own, parts), strict=True)
         made.called = {name: written[call] for name, call in calls.items() if call is not None}
+        made.borrowed = parts.temporaries
         made.writer.temporaries |= parts.temporaries
         made.view.fired |= parts.fired
         made.view.tested |= parts.tested
         return parts.charts
+
+    def _functions(
+        self, node: BlockNode, chart: ParsedChart, made: ChartWriter, parts: ExecutedParts
+    ) -> dict[int, ExecutedFunction]:
+        """The Simulink functions of a chart."""
+        found = {}
+        try:
+            every = list(simulink_functions(node.block, chart))
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+        for one in every:
+            given = [made.cells[one.node.data[name].ssid] for name in one.inputs]
+            inner = self._inner(f"{node.block.name}_{one.node.signature.name}", one.system)
+            components, ends = inner.lowered(given)
+            step, after = (_part(parts.statements(some)) for some in (components, inner.delays()))
+            outputs = dict(zip(one.outputs, ends, strict=True))
+            found[one.node.drawn.ssid] = ExecutedFunction(step, outputs, after)
+        return found
 
     def _in_order(self, targets: Iterable[str]) -> list[str]:
         """Each block after those that feed it, of those that one chart calls."""
@@ -110,8 +151,7 @@ class CalledBlockWriter(ChartBlockWriter):
             if node.block.chart:
                 return self._called_chart(node, calls, parts)
             assert node.block.system is not None
-            statements = parts.statements(self._inside(node, node.block.system))
-            return [(statements, sum(1 for _ in each_action(statements)))] * len(calls)
+            return [_part(parts.statements(self._inside(node, node.block.system)))] * len(calls)
 
     def _called_chart(
         self, node: BlockNode, calls: Sequence[FunctionCall], parts: ExecutedParts
@@ -143,7 +183,7 @@ class CalledBlockWriter(ChartBlockWriter):
             parts.charts += others
             context.views[name] = view
             if chart.drawn.at_initialization:
-                self._start(node, chart, view)
+                self._start(node, made)
         self._tell(made)
         return found
 

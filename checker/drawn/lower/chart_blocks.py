@@ -46,7 +46,7 @@ class ChartBlockWriter(TriggerWriter):
         component = self._programmed(made, writer.written(), others)
         context.views[name] = view
         if chart.drawn.at_initialization:
-            self._start(node, chart, view)
+            self._start(node, made)
         self._tell(made)
         if not self._input_events(chart):
             return [*others, component]
@@ -76,11 +76,13 @@ class ChartBlockWriter(TriggerWriter):
             dict(view.fired), dict(view.tested), tuple(places),
         ))  # fmt: skip
 
-    def _start(self, node: BlockNode, chart: ParsedChart, view: ChartView) -> None:
+    def _start(self, node: BlockNode, made: ChartWriter) -> None:
         """What a chart does that is entered before the first step."""
-        context = self.context
-        start = ProgramWriter(view.name_of_chart, context.most)
-        first = self._writer(chart, view, start)
+        context, chart = self.context, made.chart
+        start = ProgramWriter(made.writer.name, context.most)
+        first = self._writer(chart, made.view, start)
+        first.executed = made.executed
+        start.temporaries |= made.borrowed
         at_rest = [context.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
         self._feed_values(first, chart, at_rest, [False] * len(at_rest))
         first.initialize()

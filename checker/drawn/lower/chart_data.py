@@ -78,6 +78,7 @@ class ChartDataWriter(StatementWriter):
             for _, cell in leaves(cells, name):
                 assert isinstance(cell.expr, Var)
                 self.writer.temporaries[cell.expr.name] = cell.expr
+                self.writer.assigned_anew.add(cell.expr.name)
         return cells
 
     def _described(self, one: DrawnData) -> str:

@@ -22,7 +22,7 @@ from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode, output_events
 from rovercheck.checker.drawn.records import DrawnData
 from rovercheck.spec_model.lang.domain import Num
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var
 
 MOST_WAITING = 255
 """Times that an event to other blocks may wait, as each step gives one of them."""
@@ -40,6 +40,8 @@ class ChartWriter(TransitionWriter):
         self._flows_only = not chart.root.children
         self.called: Mapping[str, ProgramPart] | None = None
         """What function calls call, by their names; nothing is before the first step."""
+        self.borrowed: Mapping[str, Var] = {}
+        """The temporaries of what is called."""
         self._declare_all()
 
     # --- a step --------------------------------------------------------------------------------------------

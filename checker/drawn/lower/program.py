@@ -45,6 +45,8 @@ class ProgramWriter:
     def __init__(self, name: str, most: int = MOST_STATEMENTS) -> None:
         self.name, self._most, self.size = name, most, 0
         self.temporaries: dict[str, Var] = {}
+        self.assigned_anew: set[str] = set()
+        """The temporaries that are data of functions, which each call assigns; others are assigned once."""
         self.faults: dict[str, Var] = {}
         self._rows: list[Statement] = []
         self._ends: dict[str, Var] = {}
@@ -272,9 +274,9 @@ class ProgramWriter:
 
     def kept(self, name: str, value: SymbolicScalar) -> SymbolicScalar:
         """A value as it is now, whatever is assigned later."""
-        if isinstance(value.expr, Const) or (
-            isinstance(value.expr, Var) and value.expr.name in self.temporaries
-        ):
+        if isinstance(value.expr, Const):
+            return value
+        if isinstance(value.expr, Var) and value.expr.name in self.temporaries.keys() - self.assigned_anew:
             return value
         var = self.temporary(name, domain_of(value.expr))
         self._rows.append(Assign(var, in_steps(value.expr, var)))

@@ -19,7 +19,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
-from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
+from rovercheck.checker.drawn.records import DrawnSystem
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of
@@ -69,7 +69,7 @@ class SystemWriter(CalledBlockWriter):
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         block = node.block
         if not node.control and not is_called(block):
-            inner = self._inner(block, system)
+            inner = self._inner(block.name, system)
             components, ends = inner.lowered(self._values(node))
             node.outputs = list(ends)
             self.remembered += inner.remembered
@@ -90,15 +90,15 @@ class SystemWriter(CalledBlockWriter):
         inside = self._inside(node, system)
         return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
 
-    def _inner(self, block: DrawnBlock, system: DrawnSystem) -> "SystemWriter":
-        return SystemWriter(system, self.context, f"{self._path}_{block.name}".strip("_"))
+    def _inner(self, name: str, system: DrawnSystem) -> "SystemWriter":
+        return SystemWriter(system, self.context, f"{self._path}_{name}".strip("_"))
 
     def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         for one in system.blocks:
             for name, *kinds in RESET:
                 if one.kind in kinds and one.parameters.get(name, "held") == "reset":
                     raise NotLowered(f"{name} = reset: held is known here")
-        inner = self._inner(node.block, system)
+        inner = self._inner(node.block.name, system)
         components, ends = inner.lowered(self._values(node))
         held, node.outputs = self._held(inner, ends, components)
         return [*components, *held, *inner.delays()]
