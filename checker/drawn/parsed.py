@@ -5,6 +5,7 @@ order.  What it means is said elsewhere, twice.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from rovercheck.checker.drawn.boxes import BoxNames
 from rovercheck.checker.drawn.grammar.actions import ActionStatement
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.functions import (
@@ -144,6 +145,7 @@ class _Parser:
         self._junctions: dict[int, JunctionNode] = {}
         self._transitions: list[TransitionNode] = []
         self._notes: list[DrawingNote] = []
+        self._boxes = BoxNames(chart)
 
     def chart(self) -> ParsedChart:
         """The chart with its texts read; those that cannot be read are noted."""
@@ -207,7 +209,7 @@ class _Parser:
         parent.children.append(node)
         self._states[state.ssid] = node
         try:
-            label = parse_state_label(state.label, self._language)
+            label = self._boxes.plain(parse_state_label(state.label, self._language), state.label)
         except GrammarError as error:
             self._note(parent.path, f"the state {state.name}", error, state.ssid, state.line)
         else:
@@ -224,7 +226,8 @@ class _Parser:
 
     def _label(self, node: StateNode, transition: DrawnTransition) -> TransitionLabel | None:
         try:
-            return parse_transition_label(transition.label, self._language)
+            label = parse_transition_label(transition.label, self._language)
+            return self._boxes.plain(label, transition.label)
         except GrammarError as error:
             what = f"the transition `{label_of(transition)}`"
             self._note(node.path, what, error, transition.ssid, transition.line)
@@ -253,7 +256,7 @@ class _Parser:
         language = self._language
         kernel = self._chart.kind == "MATLAB function"
         try:
-            script = parse_script(state.script) if state.script else ()
+            script = self._boxes.plain(parse_script(state.script), state.script) if state.script else ()
             signature = script[0].signature if kernel and script else parse_signature(state.label, language)
         except GrammarError as error:
             self._note(holder.path, f"the function {state.name}", error, state.ssid, state.line)

@@ -10,7 +10,7 @@ from typing import Literal
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
-from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Applied, Expression, Member, Name
 from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
@@ -67,7 +67,8 @@ class ChartMachine:
         self.memory.declare_all(chart, named or {}, self._initial)
 
     def _initial(self, text: str) -> MatlabValue:
-        return self._runner.value(parse_expression(text, self.chart.language), self._frame(self.chart.root))
+        tree = parse_expression(text, ActionLanguage.MATLAB)  # as a parameter, whatever the chart's language
+        return self._runner.value(tree, self._frame(self.chart.root))
 
     def _frame(self, node: StateNode, holds: StateNode | None = None) -> CallFrame:
         """Where a text of a state stands; what it does further is dropped once ``holds`` is not active."""

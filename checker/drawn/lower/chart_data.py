@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from rovercheck.checker.drawn.calls import FUNCTION_CALL
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import sizes
@@ -96,7 +97,7 @@ class ChartDataWriter(StatementWriter):
         given = None
         if text.strip():
             scope = TextScope(self.chart.root, self.rules)
-            given = self.value(parse_expression(text, self.chart.language), scope)
+            given = self.value(parse_expression(text, ActionLanguage.MATLAB), scope)
         if not kind:
             seen = self.table.kind_of(name)
             if seen is None and given is not None:
