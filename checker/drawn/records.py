@@ -151,6 +151,10 @@ class DrawnState:
     """Of a Simulink function, or an atomic subchart, its block in the block of the chart."""
     atomic: bool = False
     """An atomic subchart: what is in it stands elsewhere."""
+    binding: str = ""
+    """Of an atomic subchart what its data stand for, as written: lines of an SSID and a name or a value."""
+    names: Mapping[str, str] = field(default_factory=dict)
+    """The names in it that stand for others around it, as those of an atomic subchart do."""
     action_subsystem: bool = False
     """A state of which a Simulink subsystem is the action."""
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rovercheck.checker.drawn.activity import tells_of_regions
+from rovercheck.checker.drawn.atomic import Parts, why_not
 from rovercheck.checker.drawn.records import (
     DrawnBlock,
     DrawnChart,
@@ -61,8 +62,9 @@ BLOCKS: Mapping[str, str] = {
 
 def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
     """Everything in a model that is refused, or read otherwise, in the order of the file."""
+    parts = {one.path: one for one in model.charts}
     for chart in model.charts:
-        yield from _chart(chart)
+        yield from _chart(chart, parts)
     yield from _blocks(model.system)
     for one in model.data:
         text = "it is of all charts together. Give each chart its own, and connect them."
@@ -96,7 +98,7 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
         yield f"it has the ports {' and '.join(ports)}. Put what the second controls into a subsystem in it."
 
 
-def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
+def _chart(chart: DrawnChart, parts: Parts) -> Iterator[DrawingNote]:
     if chart.super_step:
         yield _note(chart, "the chart", "super step semantics. Switch it off in the properties of the chart")
     if chart.update == "continuous":
@@ -115,12 +117,13 @@ def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
     levels = list(chart.content.every_level())
     ends = {state.ssid for level in levels for state in level.states}
     ends |= {junction.ssid for level in levels for junction in level.junctions}
-    yield from _level(chart, chart.content, chart.path, None, ends)
+    yield from _level(chart, chart.content, chart.path, None, ends, parts)
 
 
 def _level(
-    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None, ends: Collection[int]
-) -> Iterator[DrawingNote]:
+    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None, ends: Collection[int],
+    parts: Parts,
+) -> Iterator[DrawingNote]:  # fmt: skip
     """What is in a chart or a state, ``holder``, and in its states; transitions lead to ``ends``."""
     kinds = {state.kind for state in content.states} & {"exclusive", "parallel"}
     if len(kinds) > 1:
@@ -139,12 +142,11 @@ def _level(
         yield from _datum(chart, where, one)
     for state in content.states:
         if state.atomic:
-            text = "it is an atomic subchart, which is a chart of its own. Make it a plain subchart"
-            yield _of_state(chart, where, state, text)
+            yield _of_state(chart, where, state, f"it is an atomic subchart: {why_not(chart, state, parts)}")
         if state.action_subsystem:
             text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
             yield _of_state(chart, where, state, text)
-        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state, ends)
+        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state, ends, parts)
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:

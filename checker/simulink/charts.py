@@ -170,6 +170,7 @@ class _ChartReader:
             script=script,
             table=None if table is None else truth_table(table, self.place),
             block="" if simulink is None else simulink.property_of("blockName"),
+            binding="" if simulink is None else simulink.property_of("binding"),
             atomic=simulink is not None and _on(simulink, "isComponent"),
             action_subsystem=simulink is not None and _on(simulink, "isActionSubsystem"),
             rectangle=cast(Rectangle, numbers(one.property_of("position"), 4)),

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 from xml.etree.ElementTree import Element
 
-from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenData, WrittenEvent
+from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenData, WrittenEvent, WrittenState
 from rovercheck.checker.simulink.writer.elements import Values, below, made, put
 
 Counts: TypeAlias = Mapping[str, int]
@@ -96,6 +96,19 @@ class WrittenSystem:
         inside.block("TriggerPort", "function", {}, {}, TriggerType="function-call")
         chart.functions[name.strip()] = inside
         return inside
+
+    def atomic_subchart(
+        self, chart: WrittenChart, label: str, holder: WrittenState | None = None, order: int = 0,
+        binding: str = "",
+    ) -> tuple[WrittenState, WrittenChart]:  # fmt: skip
+        """A state of a chart whose content is a chart of its own."""
+        name = label.partition("\n")[0]
+        values = {"isComponent": 1, "blockName": name, "binding": binding or None}
+        state = chart.state(label, holder, order, inside={"simulink": values})
+        made = WrittenChart(f"{chart.path}/{name}", len(self.charts) + 1)
+        made.language, made.saturates = chart.language, chart.saturates
+        self.charts.append(made)
+        return state, made
 
     def _below(self, name: str) -> str:
         own = name.replace("/", "//")

@@ -1,12 +1,14 @@
-"""Names of boxes in the texts of a chart: what is in a box is of the level around it."""
+"""Names in the texts of a chart that stand for others: with a box in front, or of an atomic subchart."""
 
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
+from rovercheck.checker.drawn.grammar.actions import ForLoop
 from rovercheck.checker.drawn.grammar.errors import GrammarError
-from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
+from rovercheck.checker.drawn.grammar.expressions import parse_expression
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression, Member, Name
 from rovercheck.checker.drawn.records import DrawnChart, DrawnContent, DrawnState
 
 Tree = TypeVar("Tree")
@@ -26,18 +28,12 @@ class BoxNames:
 
         Raises ``GrammarError`` where the name alone may mean something else.
         """
-        return self._changed(tree, text) if self._boxes else tree
 
-    def _changed(self, thing: Any, text: str) -> Any:
-        if isinstance(thing, Member) and (path := _path(thing)):
-            return self._without(thing, path, text)
-        if isinstance(thing, tuple | list):
-            return type(thing)(self._changed(one, text) for one in thing)
-        if is_dataclass(thing) and not isinstance(thing, type):
-            new = {one.name: self._changed(getattr(thing, one.name), text) for one in fields(thing)}
-            changed = {name: value for name, value in new.items() if value is not getattr(thing, name)}
-            return replace(thing, **changed) if changed else thing
-        return thing
+        def change(one: Expression) -> Expression | None:
+            path = _path(one) if isinstance(one, Member) else []
+            return self._without(one, path, text) if isinstance(one, Member) and path else None
+
+        return _changed(tree, change) if self._boxes else tree
 
     def _without(self, one: Member, path: list[str], text: str) -> Expression:
         left = [name for name in path[:-1] if name not in self._boxes] + path[-1:]
@@ -53,6 +49,40 @@ class BoxNames:
         for name in left[1:]:
             found = Member(found, name, one.arrow, one.at)
         return found
+
+
+@dataclass(frozen=True)
+class Aliases:
+    """Names that stand for others, which are names, elements of data, or values."""
+
+    names: Mapping[str, str]
+
+    def plain(self, tree: Tree, text: str) -> Tree:
+        """The tree of a text with what the names stand for.  Raises ``GrammarError``."""
+
+        def change(one: Any) -> Expression | None:
+            match one:
+                case Name(name) if name in self.names:
+                    return parse_expression(self.names[name], ActionLanguage.MATLAB)
+                case ForLoop(variable) if variable in self.names:
+                    said = f"{variable} counts the turns of a loop, and stands for {self.names[variable]}"
+                    raise GrammarError(f"{said}: count with another name", text, 0)
+            return None
+
+        return _changed(tree, change) if self.names else tree
+
+
+def _changed(thing: Any, change: Callable[[Any], Any]) -> Any:
+    """A tree with other expressions in the place of those that ``change`` gives any for."""
+    if (made := change(thing)) is not None:
+        return made
+    if isinstance(thing, tuple | list):
+        return type(thing)(_changed(one, change) for one in thing)
+    if is_dataclass(thing) and not isinstance(thing, type):
+        new = {one.name: _changed(getattr(thing, one.name), change) for one in fields(thing)}
+        changed = {name: value for name, value in new.items() if value is not getattr(thing, name)}
+        return replace(thing, **changed) if changed else thing
+    return thing
 
 
 def _names(level: DrawnContent) -> Iterator[str]:
@@ -79,4 +109,4 @@ def _path(one: Expression) -> list[str]:
     return []
 
 
-__all__ = ["BoxNames"]
+__all__ = ["Aliases", "BoxNames", "Tree"]
