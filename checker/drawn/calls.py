@@ -1,6 +1,6 @@
 """Function calls: which block each event of a chart has executed at once, in place of a turn of its own."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.checker.drawn.faults import DrawnFault
@@ -21,6 +21,18 @@ class FunctionCall:
 
     target: str
     event: int
+
+
+def refuse_seconds(unit: str, events: Iterable[DrawnEvent]) -> None:
+    """Raises ``DrawnFault`` for a time in seconds of a chart that function calls wake up.
+
+    Between two calls any time may pass, and several may come in one step.
+    """
+    if any(one.scope == "input" and one.trigger == FUNCTION_CALL for one in events):
+        raise DrawnFault(
+            f"a time in {unit} of a chart that function calls wake up: count its calls with tick, or the "
+            "time in the chart that calls it"
+        )
 
 
 def is_called(block: DrawnBlock) -> bool:
@@ -139,4 +151,5 @@ def _name(block: DrawnBlock) -> str:
 
 __all__ = [
     "FUNCTION_CALL", "Feeds", "FunctionCall", "Port", "call_event", "calls_of", "function_calls", "is_called",
+    "refuse_seconds",
 ]  # fmt: skip

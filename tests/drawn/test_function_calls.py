@@ -202,7 +202,7 @@ def test_times_and_changes_of_a_called_chart_are_those_of_its_calls(tmp_path: Pa
     block, chart = called_chart(made.root, "D", "P")
     one = chart.state("S\ndu: o = o + 1; if hasChanged(i), o = o + 10; end")
     chart.transition(None, one)
-    chart.transition(one, chart.state("T\nen: o = -o;"), "[duration(i > 1, msec) >= 200]")
+    chart.transition(one, chart.state("T\nen: o = -o;"), "[count(i > 1) >= 2]")
     made.root.line(f"{made.block}/1", block)
     made.root.line(made.event(1), f"{block}#trigger")
     made.out(block, "o")
@@ -225,6 +225,38 @@ def test_two_called_blocks_of_which_one_feeds_the_other(tmp_path: Path) -> None:
     made.root.line(made.event(2), f"{other}#trigger")
     made.out(other, "sum")
     assert both(made.runner(tmp_path), [0, 1, 1, 2, 1], "sum") == [0, 0, 1, 5, 9]
+
+
+def test_times_count_the_steps_of_a_chart_and_not_its_events(tmp_path: Path) -> None:
+    """Two edges of one step wake the chart up twice, and are one step of it; each call is one."""
+
+    def count(chart: WrittenChart) -> None:
+        chart.data("o", "output", "int8")
+        state = chart.state("S\ndu: o = o + 1;")
+        chart.transition(None, state)
+        chart.transition(state, chart.state("T\nen: o = -o;"), "after(2, tick)")
+
+    model = WrittenModel("one", step="0.1")
+    block, chart = model.root.chart("C")
+    count(chart)
+    mux = model.root.block("Mux", "both", {"in": 2, "out": 1}, {}, Inputs="2")
+    port = model.root.inport("u", 1, OutDataTypeStr="int8")
+    for number, name in enumerate("PQ", 1):
+        chart.event(name, IN, "EITHER_EDGE_EVENT")
+        model.root.line(port, f"{mux}/{number}")
+    model.root.line(mux, f"{block}#trigger")
+    model.root.line(block, model.root.outport("o", 1))
+    runner = ModelRunner(read_model(model.save(tmp_path / "one.slx")))
+    # the second step enters it and executes it once; its transition is taken two steps later
+    assert both(runner, [0, 1, 0, 1], "o") == [0, 1, 3, -3]
+
+    made = Calling("A\ndu: F; F;", "F")
+    block, chart = made.root.chart("D")
+    chart.event("P", IN, CALL)
+    count(chart)
+    made.root.line(made.event(1), f"{block}#trigger")
+    made.out(block, "o")
+    assert both(made.runner(tmp_path), [0, 0, 0], "o") == [0, 1, -1]
 
 
 # --- what is refused ---------------------------------------------------------------------------------------
@@ -291,6 +323,23 @@ def test_a_call_without_a_meaning_is_refused(
     draw(made)
     for one in made.refused(tmp_path):
         assert said in one
+
+
+@pytest.mark.parametrize("word", ["after(1, sec)", "duration(i > 0) > 1", "elapsed(msec) > 10"])
+def test_seconds_of_a_called_chart_are_refused(word: str, tmp_path: Path) -> None:
+    made = Calling("A\ndu: F; F;", "F")
+    block, chart = called_chart(made.root, "D", "P")
+    state = chart.state("S")
+    chart.transition(None, state)
+    chart.transition(state, chart.state("T"), word if word.startswith("after") else f"[{word}]")
+    made.root.line(made.event(1), f"{block}#trigger")
+    runner = made.runner(tmp_path)
+    said = "of a chart that function calls wake up: count its calls with tick, or the time in the chart"
+    with pytest.raises(NotLowered, match=said):
+        lowered_model(runner.model, "one.slx")
+    with pytest.raises(DrawnFault, match=said):
+        for _ in range(3):
+            runner.step({"u": 0})
 
 
 def test_a_call_before_the_first_step_is_refused(tmp_path: Path) -> None:
