@@ -7,6 +7,7 @@ from random import Random
 import pytest
 
 from rovercheck.checker.drawn.records import DrawnModel
+from tests.drawn.random_calls import random_calls
 from tests.drawn.random_charts import random_model
 from tests.drawn.random_diagrams import random_diagram
 from tests.drawn.two_readings import compared, random_rows
@@ -15,7 +16,7 @@ from tests.profiles import full
 ROWS = 60
 PARTS = 4
 """Seeds are shared out among so many tests, which may run side by side."""
-SMALL, LARGE, DIAGRAMS = (600, 400, 400) if full() else (40, 8, 40)
+SMALL, LARGE, DIAGRAMS, CALLS = (600, 400, 400, 200) if full() else (40, 8, 40, 8)
 
 
 def small_model(seed: int, folder: Path) -> DrawnModel:
@@ -25,7 +26,8 @@ def small_model(seed: int, folder: Path) -> DrawnModel:
 
 @pytest.mark.parametrize("part", range(PARTS))
 @pytest.mark.parametrize(
-    ("drawn", "count"), [(small_model, SMALL), (random_model, LARGE), (random_diagram, DIAGRAMS)]
+    ("drawn", "count"),
+    [(small_model, SMALL), (random_model, LARGE), (random_diagram, DIAGRAMS), (random_calls, CALLS)],
 )
 def test_both_give_the_same_in_every_row(
     tmp_path: Path, drawn: Callable[[int, Path], DrawnModel], count: int, part: int

@@ -38,7 +38,7 @@ def test_a_parameter_may_stand_in_an_expression_and_have_a_type(
     ("value", "script", "expected"),
     [
         ("K(2)", "K = [2 5 7];", 5), ("K(end) - K(N - 1)", "N = 2; K = single([2 5 7]);", 5),
-        ("K(2, 1) + 10*K(4)", "K = [1 2; 3 4];", 43), ("2*K(1)", "K = 4;", 8),
+        ("K(2) + 10*K(1, 2)", "K = [1 2; 3 4];", 23), ("2*K(1)", "K = 4;", 8),
         ("V(1)", "K = [2 -5]; V = [K(2), K(1)];", -5),
     ],
 )  # fmt: skip
