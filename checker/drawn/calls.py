@@ -108,22 +108,23 @@ def calls_of(
     found: dict[str, FunctionCall | None] = {}
     for number, event in enumerate(events, outputs + 1):
         port = (block.id, number)
+        which = f"{_name(block)}, the event {event.name} (SSID {event.ssid})"
         call, uses = calls.get(port), [target for (target, _), source in feeds.items() if source == port]
         others = [blocks[one] for one in uses if blocks[one].kind != "Terminator"]
         if event.trigger != FUNCTION_CALL:
             if call is not None:
                 raise DrawnFault(
-                    f"the event {event.name} is no function call, and {_name(blocks[call.target])} waits for "
-                    "one: make its trigger Function Call"
+                    f"{which} is no function call, and {_name(blocks[call.target])} waits for one: make its "
+                    "trigger Function Call"
                 )
             continue
         if len(others) > 1:
             told = " and ".join(_name(one) for one in others)
-            raise DrawnFault(f"the function call {event.name} leads to {told}: {EACH}")
+            raise DrawnFault(f"{which} leads to {told}: {EACH}")
         if others and call is None:
             raise DrawnFault(
-                f"the function call {event.name} leads to the {others[0].kind} block {_name(others[0])}, "
-                "which no function call executes: make its trigger Either Edge, and that of the block either"
+                f"{which} leads to the {others[0].kind} block {_name(others[0])}, which no function call "
+                "executes: make its trigger Either Edge, and that of the block either"
             )
         found[event.name] = call
     wrong = [one for one in calls if one[0] == block.id and not 0 <= one[1] - outputs - 1 < len(events)]

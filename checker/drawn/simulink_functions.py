@@ -33,19 +33,18 @@ def simulink_functions(block: DrawnBlock, chart: ParsedChart) -> Iterator[Simuli
 def _function(block: DrawnBlock, node: FunctionNode) -> SimulinkFunction:
     system = _subsystem(block, node)
     found = SimulinkFunction(node, system, _names(system, "Inport"), _names(system, "Outport"))
-    signature, name = node.signature, node.signature.name
+    signature, which = node.signature, _which(node)
     for what, own, drawn in (
         ("Inports", signature.inputs, found.inputs), ("Outports", signature.outputs, found.outputs)
     ):  # fmt: skip
         if {*own} != {*drawn} or len(own) != len(drawn):
             shown, said = (", ".join(filter(None, some)) or "none" for some in (drawn, own))
             raise DrawnFault(
-                f"the Simulink function {name} has the {what} {shown}, and its label says {said}: give both "
-                "the same names"
+                f"{which} has the {what} {shown}, and its label says {said}: give both the same names"
             )
     missing = [one for one in (*found.inputs, *found.outputs) if one not in node.data]
     if missing:
-        raise DrawnFault(f"the Simulink function {name} has no datum {missing[0]}: save the model again")
+        raise DrawnFault(f"{which} has no datum {missing[0]}: save the model again")
     return found
 
 
@@ -55,11 +54,15 @@ def _subsystem(block: DrawnBlock, node: FunctionNode) -> DrawnSystem:
     found = [one.system for one in every if one.kind == "SubSystem" and one.shown == " ".join(name.split())]
     if len(found) != 1 or found[0] is None:
         raise DrawnFault(
-            f"the Simulink function {node.signature.name} (SSID {node.drawn.ssid}) has no subsystem {name} "
-            "in the block of its chart: if it is a link to a library, break that, and save the model again"
+            f"{_which(node)} has no subsystem {name} in the block of its chart: if it is a link to a "
+            "library, break that, and save the model again"
         )
     system = found[0]
     return replace(system, blocks=tuple(_as_port(one) for one in system.blocks))
+
+
+def _which(node: FunctionNode) -> str:
+    return f"{node.holder.path}, the Simulink function {node.signature.name} (SSID {node.drawn.ssid})"
 
 
 def _as_port(block: DrawnBlock) -> DrawnBlock:

@@ -311,7 +311,7 @@ def anew(made: Calling) -> None:
         (split, "Split"), (loop, "feed each other without a delay (what a chart calls"),
         (two, "a function call leads to X and Y: send an event for each"),
         (signal, "output 1 of C is data, and X waits for a function call"),
-        (edge, "the function call F leads to the SubSystem block X, which no function call executes"),
+        (edge, "C, the event F (SSID 4) leads to the SubSystem block X, which no function call executes"),
         (outside, "the function call of X comes from outside its subsystem"),
         (anew, "StatesWhenEnabling = reset"),
     ],

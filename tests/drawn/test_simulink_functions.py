@@ -150,8 +150,8 @@ def test_a_link_in_a_function_is_told_when_the_model_is_read(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("label", "said"),
     [
-        ("y = f(b)", "the Simulink function f has the Inports a, and its label says b"),
-        ("f(a)", "the Simulink function f has the Outports y, and its label says none"),
+        ("y = f(b)", r"C, the Simulink function f \(SSID 5\) has the Inports a, and its label says b"),
+        ("f(a)", r"C, the Simulink function f \(SSID 5\) has the Outports y, and its label says none"),
     ],
 )
 def test_a_function_without_the_ports_of_its_label_is_refused(label: str, said: str, tmp_path: Path) -> None:
