@@ -276,7 +276,8 @@ class ProgramWriter:
         """A value as it is now, whatever is assigned later."""
         if isinstance(value.expr, Const):
             return value
-        if isinstance(value.expr, Var) and value.expr.name in self.temporaries.keys() - self.assigned_anew:
+        at = value.expr.name if isinstance(value.expr, Var) else ""
+        if at in self.temporaries and at not in self.assigned_anew:
             return value
         var = self.temporary(name, domain_of(value.expr))
         self._rows.append(Assign(var, in_steps(value.expr, var)))
