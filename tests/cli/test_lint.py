@@ -9,6 +9,7 @@ from jsonschema import Draft202012Validator
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.simulink.writer.packages import WrittenModel
+from tests.drawn.test_function_calls import Calling, called_chart
 from tests.schemas import published
 from tests.simulink.samples import package_of
 
@@ -170,3 +171,24 @@ def test_of_the_rover_systems_are_named_and_runs_are_reproduced_on_the_board(
 def test_what_is_not_decided_is_told(model: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["lint", "--model", model, "--seconds", "1e-9"]) == Exit.INCONCLUSIVE
     assert "was not decided" in " ".join(capsys.readouterr().out.split())
+
+
+def test_what_is_in_a_chart_that_another_calls_is_told_of_that(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its transitions and conditions are those of the program of the other one."""
+    made = Calling("A\ndu: n = int8(u > 0); F;", "F")
+    block, chart = called_chart(made.root, "D", "P")
+    one, two, three = chart.state("One"), chart.state("Two"), chart.state("Three")
+    chart.transition(None, one)
+    chart.transition(one, two, "[i >= 0]")
+    chart.transition(two, one, "[i == 1]")
+    chart.transition(two, three, "[i == 5]", 2)
+    made.root.line(f"{made.block}/1", block)
+    made.root.line(made.event(1), f"{block}#trigger")
+    made.model.save(tmp_path / "one.slx")
+    assert run(["lint", "--model", str(tmp_path / "one.slx")]) == Exit.FAILED
+    said = " ".join(capsys.readouterr().out.split())
+    assert "✗ one, D: state Three is never active." in said
+    assert "✗ one, D: the condition of the transition `[i >= 0]` (SSID" in said
+    assert "✗ one, C" not in said

@@ -45,13 +45,17 @@ def _component(component: Component, goals: list[GuardGoal]) -> Component:
     match component:
         case Enabled(by=by, components=inside, name=name):
             return Enabled(by, *(_component(c, goals) for c in inside), name=name)
-        case ProgrammedChart(program=program, name=name):
-            texts = dict.fromkeys(text for text, _ in program.tested.values())
-            made = {text: _condition(goals, name, text) for text in texts}
+        case ProgrammedChart(program=program):
+            found = [
+                (marker, marker.rpartition(".")[0], text, valid)  # the chart may be one that this calls
+                for marker, (text, valid) in program.tested.items()
+            ]
+            every = dict.fromkeys((name, text) for _, name, text, _ in found)
+            made = {key: _condition(goals, *key) for key in every}
             raised = {
                 marker: _raised(goal.tested if valid else goal.flag)
-                for marker, (text, valid) in program.tested.items()
-                for goal in (made[text],)
+                for marker, name, text, valid in found
+                for goal in (made[name, text],)
             }
             return component.with_program(replace(program, statements=raising(program.statements, raised)))
         case Chart():
