@@ -79,7 +79,7 @@ def model(
 def run(read: DrawnModel, rows: Sequence[Row]) -> list[tuple[float, ...]]:
     """The outputs in each row, the same in both readings."""
     found = compared(read, rows)
-    assert (found.rows, found.refused, found.fault) == (len(rows), "", "")
+    assert (found.rows, found.refused, found.fault) == (len(rows), "", ""), found
     runner = ModelRunner(read)
     return [tuple(runner.step(row).values()) for row in rows]
 

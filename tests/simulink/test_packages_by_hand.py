@@ -238,3 +238,80 @@ def test_a_chart_of_which_the_block_is_commented_out_is_none(tmp_path: Path) -> 
     read = model(ports(5, "ab", "zy") + block_, tmp_path, "", chart("A", DATA))
     assert read.charts == ()
     assert run(read, ROWS) == [(0, 0), (0, 0)]
+
+
+# --- function calls ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "said"),
+    [
+        (
+            "FunctionCallSplit",
+            {},
+            "a split of a function call. Send an event for each block that",
+        ),
+        (
+            "FunctionCallGenerator",
+            {},
+            "a generator of function calls. Let a chart send an event in each step.",
+        ),
+        (
+            "Reference",
+            {"SourceType": "Function-Call Generator"},
+            "a generator of function calls. Let a chart",
+        ),
+        ("S-Function", {"FunctionName": "fcncallgen"}, "a generator of function calls. Let a chart send an"),
+        ("FunctionCallFeedbackLatch", {}, "a latch of a function call. Put a Unit Delay in its place."),
+        ("FunctionCaller", {}, "a call of a Simulink function. Call it in a chart."),
+    ],
+)
+def test_blocks_of_function_calls_are_refused_by_name(
+    kind: str, values: Mapping[str, object], said: str, tmp_path: Path
+) -> None:
+    read = model(block(kind, "it", 5, "", **values), tmp_path)
+    assert [str(note).startswith(f"it, {kind} block 5: it is {said}") for note in notes_of(read)] == [True]
+
+
+def event(ssid: int, name: str, scope: str) -> str:
+    """An event of a chart that is a function call."""
+    return (
+        f'<event SSID="{ssid}"><P Name="name">{name}</P><P Name="scope">{scope}_EVENT</P>'
+        '<P Name="trigger">FUNCTION_CALL_EVENT</P></event>'
+    )
+
+
+@pytest.mark.parametrize("through", ["", "Goto"])
+def test_a_function_call_goes_to_the_port_of_its_event(through: str, tmp_path: Path) -> None:
+    """Ports of events are behind those of data, by their numbers in the block; tags are wires."""
+    text = chart(
+        "A&#xA;en: y = int8(1);&#xA;du: y = p; F; G; G;",
+        event(14, "F", "OUTPUT") + event(15, "G", "OUTPUT") + datum(11, "p", "INPUT_DATA")
+        + datum(12, "y", "OUTPUT_DATA"),
+    )  # fmt: skip
+    outs = "".join(
+        block("Outport", name, sid, "", Port=port)
+        for sid, name, port in ((20, "y", 1), (21, "G()", 2), (22, "F()", 3))
+    )
+    inside = block("Inport", "p", 23) + outs
+    counted = (
+        block("TriggerPort", "call", 30, "", TriggerType="function-call") + block("Inport", "i", 31)
+        + block("UnitDelay", "last", 32, InitialCondition="int8(0)") + block("Sum", "add", 33)
+        + block("Outport", "o", 34)
+        + signal("31#out:1", "33#in:1") + signal("32#out:1", "33#in:2") + signal("33#out:1", "32#in:1")
+        + signal("33#out:1", "34#in:1")
+    )  # fmt: skip
+    wires = signal("5#out:1", "6#in:1") + signal("6#out:1", "91#in:1")
+    if through:
+        wires += signal("5#out:2", "7#in:1") + signal("8#out:1", "6#trigger")
+        wires += block("Goto", "to", 7, GotoTag="call") + block("From", "from", 8, GotoTag="call")
+    else:
+        wires += signal("5#out:2", "6#trigger")
+    read = model(
+        ports(5, "a", "y") + block("Outport", "sum", 91, Port=2) + wires
+        + block("SubSystem", "C", 5, CHART.format(inside))
+        + block("SubSystem", "X", 6, f"<System>{counted}</System>"),
+        tmp_path, "", text,
+    )  # fmt: skip
+    rows = [{"a": 3}, {"a": 3}, {"a": -1}]
+    assert run(read, rows) == [(1, 0), (3, 6), (-1, 4)]
