@@ -75,7 +75,8 @@ EXPECTED = [
     (CHART, "the datum long", 12, "it is a string. Use an enumeration."),
     (
         f"{CHART}/Outer", "the state Part", 6,
-        "it is an atomic subchart, which is a chart of its own. Make it a plain subchart.",
+        "it is an atomic subchart: it is a link to a library, or is not in the file. Break the link, and "
+        "save the model again.",
     ),
     (
         f"{CHART}/Outer", "the state Act", 7,
