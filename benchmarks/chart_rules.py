@@ -55,6 +55,7 @@ LOWERING = (
 PACKAGES = (
     "tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
+    "tests/simulink/test_by_hand.py",
 )  # fmt: skip
 READINGS: Mapping[str, Reading] = {
     "interpret": Reading(Path("checker/drawn/interpret"), INTERPRETER),
