@@ -45,6 +45,8 @@ INTERPRETER = (
     "tests/drawn/test_interpreter.py", "tests/drawn/test_early_return.py",
     "tests/drawn/test_interpreter_times.py", "tests/drawn/test_interpreter_numbers.py",
     "tests/drawn/test_computed_numbers.py", "tests/drawn/test_arrays.py", "tests/drawn/test_diagram_runs.py",
+    "tests/drawn/test_function_calls.py", "tests/drawn/test_simulink_functions.py",
+    "tests/drawn/test_boxes.py", "tests/drawn/test_atomic_subcharts.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
 )  # fmt: skip
 LOWERING = (
@@ -55,7 +57,7 @@ LOWERING = (
 PACKAGES = (
     "tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
-    "tests/simulink/test_by_hand.py",
+    "tests/simulink/test_by_hand.py", "tests/drawn/test_simulink_functions.py",
 )  # fmt: skip
 READINGS: Mapping[str, Reading] = {
     "interpret": Reading(Path("checker/drawn/interpret"), INTERPRETER),

@@ -20,6 +20,7 @@ from rovercheck.checker.drawn.grammar.labels import (
     parse_transition_label,
 )
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Expression
+from rovercheck.checker.drawn.names import Aliases, BoxNames, Tree
 from rovercheck.checker.drawn.records import (
     DrawnChart,
     DrawnContent,
@@ -144,6 +145,7 @@ class _Parser:
         self._junctions: dict[int, JunctionNode] = {}
         self._transitions: list[TransitionNode] = []
         self._notes: list[DrawingNote] = []
+        self._boxes, self._aliases = BoxNames(chart), Aliases({})
 
     def chart(self) -> ParsedChart:
         """The chart with its texts read; those that cannot be read are noted."""
@@ -182,6 +184,10 @@ class _Parser:
             if label is not None:
                 self._transitions.append(TransitionNode(transition, label, node))
 
+    def _named(self, tree: Tree, text: str) -> Tree:
+        """The tree of a text with each name as it is outside of boxes and atomic subcharts."""
+        return self._aliases.plain(self._boxes.plain(tree, text), text)
+
     def _refuse_shared(self, node: StateNode, box: DrawnState) -> None:
         """A box has names of its own in Stateflow; here they are those of the level around it."""
         names = {one.name for one in box.content.data} | {one.name for one in box.content.events}
@@ -207,7 +213,7 @@ class _Parser:
         parent.children.append(node)
         self._states[state.ssid] = node
         try:
-            label = parse_state_label(state.label, self._language)
+            label = self._named(parse_state_label(state.label, self._language), state.label)
         except GrammarError as error:
             self._note(parent.path, f"the state {state.name}", error, state.ssid, state.line)
         else:
@@ -220,11 +226,14 @@ class _Parser:
                     else:
                         sections.setdefault(kind, []).extend(section.statements)
             node.sections, node.on_events = sections, on_events
+        around, self._aliases = self._aliases, Aliases({**self._aliases.names, **state.names})
         self._level(node, state.content)
+        self._aliases = around
 
     def _label(self, node: StateNode, transition: DrawnTransition) -> TransitionLabel | None:
         try:
-            return parse_transition_label(transition.label, self._language)
+            label = parse_transition_label(transition.label, self._language)
+            return self._named(label, transition.label)
         except GrammarError as error:
             what = f"the transition `{label_of(transition)}`"
             self._note(node.path, what, error, transition.ssid, transition.line)
@@ -253,7 +262,7 @@ class _Parser:
         language = self._language
         kernel = self._chart.kind == "MATLAB function"
         try:
-            script = parse_script(state.script) if state.script else ()
+            script = self._named(parse_script(state.script), state.script) if state.script else ()
             signature = script[0].signature if kernel and script else parse_signature(state.label, language)
         except GrammarError as error:
             self._note(holder.path, f"the function {state.name}", error, state.ssid, state.line)

@@ -151,6 +151,10 @@ class DrawnState:
     """Of a Simulink function, or an atomic subchart, its block in the block of the chart."""
     atomic: bool = False
     """An atomic subchart: what is in it stands elsewhere."""
+    binding: str = ""
+    """Of an atomic subchart what its data stand for, as written: lines of an SSID and a name or a value."""
+    names: Mapping[str, str] = field(default_factory=dict)
+    """The names in it that stand for others around it, as those of an atomic subchart do."""
     action_subsystem: bool = False
     """A state of which a Simulink subsystem is the action."""
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
@@ -226,6 +230,17 @@ class DrawnBlock:
     rectangle: Rectangle = (0.0, 0.0, 0.0, 0.0)
     line: int = 0
 
+    def systems(self) -> Iterator["DrawnSystem"]:
+        """What is in it: of a subsystem its system, of a chart those of its Simulink functions."""
+        if self.system is None:
+            return
+        if not self.chart:
+            yield self.system
+            return
+        for one in self.system.blocks:
+            if one.kind == "SubSystem" and one.system is not None and not one.chart:
+                yield one.system
+
     @property
     def shown(self) -> str:
         """Its name in one line."""
@@ -241,11 +256,11 @@ class DrawnSystem:
     part: str = ""
 
     def every_block(self) -> Iterator[DrawnBlock]:
-        """The blocks here and in subsystems, at any depth; not those inside the block of a chart."""
+        """The blocks here and in subsystems, at any depth; of those in a chart those of its functions."""
         for block in self.blocks:
             yield block
-            if block.system is not None and not block.chart:
-                yield from block.system.every_block()
+            for system in block.systems():
+                yield from system.every_block()
 
 
 @dataclass(frozen=True)

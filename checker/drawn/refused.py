@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rovercheck.checker.drawn.activity import tells_of_regions
+from rovercheck.checker.drawn.atomic import Parts, why_not
 from rovercheck.checker.drawn.records import (
     DrawnBlock,
     DrawnChart,
@@ -41,11 +42,16 @@ class DrawingNote:
 
 LONGEST = 100
 """Letters of the name of a state in a note."""
+GENERATOR = "a generator of function calls. Let a chart send an event in each step"
 BLOCKS: Mapping[str, str] = {
     "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
     "ModelReference": "another model. Import that model by itself",
     "S-Function": "C code, which is not read. Put a MATLAB function in its place",
     "MATLABFcn": "an interpreted function of MATLAB. Put a MATLAB Function block in its place",
+    "FunctionCallSplit": "a split of a function call. Send an event for each block that it leads to",
+    "FunctionCallGenerator": GENERATOR,
+    "FunctionCallFeedbackLatch": "a latch of a function call. Put a Unit Delay in its place",
+    "FunctionCaller": "a call of a Simulink function. Call it in a chart",
     "Integrator": "continuous time. Use a discrete-time block",
     "TransferFcn": "continuous time. Use a discrete-time block",
     "StateSpace": "continuous time. Use a discrete-time block",
@@ -56,8 +62,9 @@ BLOCKS: Mapping[str, str] = {
 
 def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
     """Everything in a model that is refused, or read otherwise, in the order of the file."""
+    parts = {one.path: one for one in model.charts}
     for chart in model.charts:
-        yield from _chart(chart)
+        yield from _chart(chart, parts)
     yield from _blocks(model.system)
     for one in model.data:
         text = "it is of all charts together. Give each chart its own, and connect them."
@@ -69,14 +76,16 @@ def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
         name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
         for text in _of_block(block, system):
             yield DrawingNote("refused", name, what, text, system.part, None, block.line)
-        if block.system is not None and not block.chart:
-            yield from _blocks(block.system)
+        for inner in block.systems():
+            yield from _blocks(inner)
 
 
 def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
     """Why a block has no meaning here."""
     if block.kind in BLOCKS:
-        yield f"it is {BLOCKS[block.kind]}."
+        source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
+        generates = source == "Function-Call Generator" or name == "fcncallgen"
+        yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}."
     if block.parameters.get("Commented") == "through":
         yield "it is commented through. Delete it, and draw the signal past it."
     if block.kind != "SubSystem" or block.system is None or block.chart:
@@ -89,7 +98,7 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
         yield f"it has the ports {' and '.join(ports)}. Put what the second controls into a subsystem in it."
 
 
-def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
+def _chart(chart: DrawnChart, parts: Parts) -> Iterator[DrawingNote]:
     if chart.super_step:
         yield _note(chart, "the chart", "super step semantics. Switch it off in the properties of the chart")
     if chart.update == "continuous":
@@ -108,12 +117,13 @@ def _chart(chart: DrawnChart) -> Iterator[DrawingNote]:
     levels = list(chart.content.every_level())
     ends = {state.ssid for level in levels for state in level.states}
     ends |= {junction.ssid for level in levels for junction in level.junctions}
-    yield from _level(chart, chart.content, chart.path, None, ends)
+    yield from _level(chart, chart.content, chart.path, None, ends, parts)
 
 
 def _level(
-    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None, ends: Collection[int]
-) -> Iterator[DrawingNote]:
+    chart: DrawnChart, content: DrawnContent, where: str, holder: DrawnState | None, ends: Collection[int],
+    parts: Parts,
+) -> Iterator[DrawingNote]:  # fmt: skip
     """What is in a chart or a state, ``holder``, and in its states; transitions lead to ``ends``."""
     kinds = {state.kind for state in content.states} & {"exclusive", "parallel"}
     if len(kinds) > 1:
@@ -132,12 +142,11 @@ def _level(
         yield from _datum(chart, where, one)
     for state in content.states:
         if state.atomic:
-            text = "it is an atomic subchart, which is a chart of its own. Make it a plain subchart"
-            yield _of_state(chart, where, state, text)
+            yield _of_state(chart, where, state, f"it is an atomic subchart: {why_not(chart, state, parts)}")
         if state.action_subsystem:
             text = "its action is a Simulink subsystem. Call a Simulink function in place of it"
             yield _of_state(chart, where, state, text)
-        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state, ends)
+        yield from _level(chart, state.content, f"{where}/{state.name[:LONGEST]}", state, ends, parts)
 
 
 def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNote]:

@@ -3,11 +3,10 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
+from rovercheck.checker.drawn.calls import FunctionCall, Port, function_calls
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 
-Port = tuple[str, int]
-"""A block, by its id, and the number of one of its outputs."""
 CONTROL = {"EnablePort": "enable", "TriggerPort": "trigger", "ActionPort": "ifaction"}
 DELAYS = ("UnitDelay", "Memory")
 
@@ -17,11 +16,18 @@ class SystemWiring:
     """The blocks of a system that do something, in their order of execution, and what feeds them.
 
     Of the inputs ``feeds`` says which output each is, by the block and the name of its port; what is fed by
-    an Inport of the system itself is fed by that block.
+    an Inport of the system itself is fed by that block.  ``calls`` are the outputs that are function calls;
+    what they call stands before the chart that calls it.
     """
 
     order: list[DrawnBlock] = field(default_factory=list)
     feeds: dict[tuple[str, str], Port] = field(default_factory=dict)
+    calls: dict[Port, FunctionCall] = field(default_factory=dict)
+
+    @property
+    def called(self) -> set[str]:
+        """The blocks, by their ids, that are executed where a chart calls them."""
+        return {call.target for call in self.calls.values()}
 
     def inputs_of(self, block: DrawnBlock) -> list[Port | None]:
         """What feeds each input of a block, those too to which nothing is connected."""
@@ -29,6 +35,9 @@ class SystemWiring:
         most = max(ports, default=0)
         if block.system is None:
             most = max(most, _inputs_said(block))
+        elif not block.chart:
+            ports += [number_of(one) for one in block.system.blocks if one.kind == "Inport"]
+            most = min(max(ports, default=0), MOST_INPUTS)
         return [self.feeds.get((block.id, str(number))) for number in range(1, most + 1)]
 
 
@@ -97,7 +106,8 @@ class _Wires:
                 source = self._source(self._lines[target, port])
                 if source is not None:
                     found.feeds[target, port] = source
-        found.order = _ordered(real, found.feeds)
+        found.calls = function_calls({block.id: block for block in real}, found.feeds)
+        found.order = _ordered(real, found.feeds, _callers(found.calls))
         return found
 
     def _is_real(self, block: DrawnBlock) -> bool:
@@ -133,25 +143,58 @@ class _Wires:
         return (near or every)[0]
 
 
-def _ordered(blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port]) -> list[DrawnBlock]:
-    """Each block after those that feed it directly; a delay gives what it got a step before."""
+def _callers(calls: Mapping[Port, FunctionCall]) -> dict[str, str]:
+    """Of each block that is called the chart that calls first: one called by it may call, too.
+
+    Raises ``DrawnFault`` for charts that call each other.
+    """
+    by = {call.target: port[0] for port, call in calls.items()}
+    found = {}
+    for target, caller in by.items():
+        seen = {target}
+        while caller in by:
+            if caller in seen:
+                raise DrawnFault(f"the blocks {', '.join(sorted(seen))} call each other by function calls")
+            seen.add(caller)
+            caller = by[caller]
+        found[target] = caller
+    return found
+
+
+def _ordered(
+    blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port], callers: Mapping[str, str]
+) -> list[DrawnBlock]:
+    """Each block after those that feed it directly; a delay gives what it got a step before.
+
+    What is called is executed with the chart that calls it: after all that feeds either of them, and before
+    all that they feed.
+    """
     every = {block.id: block for block in blocks}
-    before: dict[str, list[str]] = {block: [] for block in every}
-    for (target, _), (source, _) in feeds.items():
+    before: dict[str, list[str]] = {block: [] for block in every if block not in callers}
+    for (target, port), (source, _) in feeds.items():
+        if target in callers and port == "trigger":
+            continue
         if every[target].kind not in DELAYS and source in every and every[source].kind not in DELAYS:
-            before[target].append(source)
-    return [every[name] for name in _sorted(before)]
+            first, other = callers.get(target, target), callers.get(source, source)
+            if first != other or target == source:
+                before[first].append(other)
+    together: dict[str, list[str]] = {}
+    for block in every:
+        group = together.setdefault(callers.get(block, block), [])
+        group.insert(0 if block in callers else len(group), block)
+    said = " (what a chart calls is executed with it)" if callers else ""
+    return [every[name] for first in _sorted(before, said) for name in together[first]]
 
 
-def _sorted(before: Mapping[str, list[str]]) -> Iterator[str]:
+def _sorted(before: Mapping[str, list[str]], said: str) -> Iterator[str]:
     done, waiting = set[str](), list(before)
     while waiting:
         ready = [one for one in waiting if all(other in done for other in before[one])]
         if not ready:
-            raise DrawnFault(f"the blocks {', '.join(waiting[:5])} feed each other without a delay")
+            raise DrawnFault(f"the blocks {', '.join(waiting[:5])} feed each other without a delay{said}")
         yield from ready
         done.update(ready)
         waiting = [one for one in waiting if one not in done]
 
 
-__all__ = ["CONTROL", "DELAYS", "Port", "SystemWiring", "number_of", "wired"]
+__all__ = ["CONTROL", "DELAYS", "SystemWiring", "number_of", "wired"]

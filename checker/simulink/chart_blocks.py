@@ -7,6 +7,8 @@ from itertools import pairwise
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnContent, DrawnData, DrawnSystem
 from rovercheck.spec_model.lang.errors import ModelError
 
+ARGUMENTS = {"Inport": "Inherit: auto", "ArgIn": "double"}
+"""The ports that are arguments of a Simulink function, and the types of those that say none."""
 Numbers = Mapping[str, int]
 """Ports by their names."""
 
@@ -32,7 +34,34 @@ def _ordered(chart: DrawnChart, inside: DrawnSystem) -> DrawnChart:
     events = sorted(chart.content.events, key=lambda one: outs.get(f"{one.name}()", 0))
     ordered = tuple(events) if all(f"{e.name}()" in outs for e in events) else chart.content.events
     content: DrawnContent = replace(chart.content, data=data, events=ordered)
-    return replace(chart, content=content)
+    return replace(chart, content=_typed(content, inside))
+
+
+def _typed(content: DrawnContent, inside: DrawnSystem) -> DrawnContent:
+    """What is drawn with the types of arguments of Simulink functions, which their ports say."""
+    states = []
+    for one in content.states:
+        inner = _typed(one.content, inside)
+        if one.function == "Simulink":
+            name = " ".join((one.block or one.name.partition("(")[0].rpartition("=")[2]).split())
+            systems = (b.system for b in inside.blocks if b.shown == name and b.system is not None)
+            ports = {_argument(p): p for system in systems for p in system.blocks if p.kind in ARGUMENTS}
+            data = tuple(_as_port(d, ports[d.name]) if d.name in ports else d for d in inner.data)
+            inner = replace(inner, data=data)
+        states.append(replace(one, content=inner))
+    return replace(content, states=tuple(states))
+
+
+def _argument(port: DrawnBlock) -> str:
+    return port.parameters.get("ArgumentName", port.shown)
+
+
+def _as_port(one: DrawnData, port: DrawnBlock) -> DrawnData:
+    """An argument in the type and size of its port, where it has none of its own."""
+    type_ = port.parameters.get("OutDataTypeStr", ARGUMENTS[port.kind])
+    size = port.parameters.get("PortDimensions", "-1")
+    type_ = type_ if one.type.startswith("Inherit") or not one.type else one.type
+    return replace(one, type=type_, size=size if one.size in ("", "-1") else one.size)
 
 
 def _numbers(blocks: Iterable[DrawnBlock], kind: str) -> Numbers:

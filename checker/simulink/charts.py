@@ -76,6 +76,9 @@ def chart_of(element: XmlElement, part: str, path: str, place: str) -> DrawnChar
 class _ChartReader:
     def __init__(self, element: XmlElement, part: str, path: str, place: str) -> None:
         self.element, self.part, self.path, self.place = element, part, path, place
+        self._commented = {inner.attributes.get("SSID") for one in element.every() if _is_commented(one)
+                           for inner in one.every()} - {None}  # fmt: skip
+        """What is commented out, with all that is in it: it is as if it were not drawn."""
 
     def chart(self) -> DrawnChart:
         one = self.element
@@ -109,7 +112,8 @@ class _ChartReader:
     def _content(self, holder: XmlElement, state: int | None) -> DrawnContent:
         """What is nested in a chart or a state, which is ``state``."""
         children = holder.child("Children")
-        every = [] if children is None else children.children
+        drawn = [] if children is None else children.children
+        every = [one for one in drawn if not self._is_left_out(one)]
         wires = (one for one in every if one.tag == "transition" and one.property_of("type") != "SUB")
         return DrawnContent(
             tuple(self._state(one) for one in every if one.tag == "state"),
@@ -118,6 +122,11 @@ class _ChartReader:
             tuple(data_of(one, self.place) for one in every if one.tag == "data"),
             tuple(self._event(one) for one in every if one.tag == "event"),
         )
+
+    def _is_left_out(self, one: XmlElement) -> bool:
+        """Whether an element is commented out, or is a transition from or to one that is."""
+        ends = [end.property_of("SSID") for end in one.children if end.tag in ("src", "dst")]
+        return not self._commented.isdisjoint([one.attributes.get("SSID"), *ends])
 
     def _unique(self, content: DrawnContent) -> DrawnContent:
         """The same content.  Raises ``ModelError`` if two elements of it have one number."""
@@ -161,6 +170,7 @@ class _ChartReader:
             script=script,
             table=None if table is None else truth_table(table, self.place),
             block="" if simulink is None else simulink.property_of("blockName"),
+            binding="" if simulink is None else simulink.property_of("binding"),
             atomic=simulink is not None and _on(simulink, "isComponent"),
             action_subsystem=simulink is not None and _on(simulink, "isActionSubsystem"),
             rectangle=cast(Rectangle, numbers(one.property_of("position"), 4)),
@@ -289,6 +299,17 @@ def _word(one: XmlElement, name: str, words: Mapping[str, Word], place: str) -> 
             f"known are {known}."
         )
     return words[written]
+
+
+COMMENTED = ("isExplicitlyCommented", "isImplicitlyCommented")
+
+
+def _is_commented(one: XmlElement) -> bool:
+    """Whether a state, a transition or a junction is commented out, as a property of its own says."""
+    if one.tag not in ("state", "transition", "junction"):
+        return False
+    holders = (one, *(child for child in one.children if child.tag not in ("Children", "src", "dst")))
+    return any(_on(holder, name) for holder in holders for name in COMMENTED)
 
 
 def _on(one: XmlElement, name: str) -> bool:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from rovercheck.checker.drawn.activity import NONE, activity_members
+from rovercheck.checker.drawn.atomic import drawn_in_place
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnEnumeration, DrawnModel
 from rovercheck.checker.simulink.blocks import DiagramReader, defaults_of
@@ -42,6 +43,7 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
     system = diagrams.root(model, DIAGRAM)
     charts, data = _charts(package, top)
     charts = in_order_of_ports(without(charts, diagrams.commented), system)
+    charts = drawn_in_place(charts)
     charts = tuple(in_mask(one, diagrams.scopes.get(one.path, {}), package.place(one.part)) for one in charts)
     types = [one.type for one in data]
     types += (one.type for chart in charts for level in chart.content.every_level() for one in level.data)

@@ -28,7 +28,8 @@ class StepProgram:
     ``temporaries`` are written before they are read in every step.  ``fired`` says which path was taken where
     its marker, a variable that nothing reads, is assigned; ``tested`` in the same way which transition with
     a condition was tested, and whether that held.  ``starting`` are raw values that variables have before the
-    first step, of a chart that is entered when it is initialized.
+    first step, of a chart that is entered when it is initialized.  ``elsewhere`` are the active states of
+    other charts, which the step executes as it calls them.
     """
 
     statements: Program
@@ -36,6 +37,7 @@ class StepProgram:
     starting: Mapping[str, int] = field(default_factory=dict)
     fired: Mapping[str, FiredTransition] = field(default_factory=dict)
     tested: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
+    elsewhere: tuple[Var, ...] = ()
 
     @cached_property
     def unmarked(self) -> Program:
@@ -122,8 +124,8 @@ class ProgrammedChart(Chart):
 
     @cached_property
     def _own(self) -> frozenset[str]:
-        """The names of its temporaries, its markers and its active states."""
-        places = {place.name for place in (*self.locations, self.entered)}
+        """The names of its temporaries, its markers and active states, those of charts that it calls too."""
+        places = {place.name for place in (*self.locations, self.entered, *self.program.elsewhere)}
         return frozenset({v.name for v in self.program.temporaries} | places | self.program.markers)
 
     @cached_property

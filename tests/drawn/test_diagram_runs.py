@@ -246,15 +246,6 @@ def test_an_output_may_hold_whether_a_state_is_active(tmp_path: Path) -> None:
     assert [value == TRUE for value in found] == [False, True, True, False]
 
 
-def test_a_function_call_of_other_blocks_is_refused(tmp_path: Path) -> None:
-    def draw(c: WrittenChart) -> None:
-        c.event("OUT", "OUTPUT_EVENT", "FUNCTION_CALL_EVENT")
-        c.transition(None, c.state("A\nen: OUT;"))
-
-    with pytest.raises(DrawnFault, match="OUT is a function call of other blocks"):
-        logged(running(tmp_path, draw), [0])
-
-
 def test_functions_of_one_name_in_two_boxes_are_refused(tmp_path: Path) -> None:
     """The last one silently took the place of the other."""
 

@@ -40,6 +40,20 @@ def test_data_that_nothing_writes_keep_their_first_values(tmp_path: Path) -> Non
     assert set(lowered.system.inputs) == {"u"}
 
 
+def test_a_graphical_function_is_called_twice_in_one_expression(tmp_path: Path) -> None:
+    """The system had what the second call gives for both."""
+
+    def draw(c: WrittenChart) -> None:
+        f = c.function("y = g(x)")
+        for name, scope in (("x", "function input"), ("y", "function output")):
+            c.data(name, scope, "int8", holder=f)
+        c.transition(None, c.junction(f), "{y = x + 1;}", holder=f)
+        c.transition(None, c.state("A\nen, du: log = g(u) + g(int8(10));"))
+
+    runner = running(tmp_path, draw, {"u": "int8"}, {"log": "int8"})
+    assert both(runner, [1, 2, 3]) == [13, 14, 15]
+
+
 def test_a_chart_is_entered_at_initialization_with_its_states(tmp_path: Path) -> None:
     """Only data began as that leaves them, the active states did not; a second attempt began from there."""
 

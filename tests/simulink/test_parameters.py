@@ -34,6 +34,41 @@ def test_a_parameter_may_stand_in_an_expression_and_have_a_type(
     assert constant(value, script, tmp_path) == expected
 
 
+@pytest.mark.parametrize(
+    ("value", "script", "expected"),
+    [
+        ("K(2)", "K = [2 5 7];", 5), ("K(end) - K(N - 1)", "N = 2; K = single([2 5 7]);", 5),
+        ("K(2, 1) + 10*K(4)", "K = [1 2; 3 4];", 43), ("2*K(1)", "K = 4;", 8),
+        ("V(1)", "K = [2 -5]; V = [K(2), K(1)];", -5),
+    ],
+)  # fmt: skip
+def test_a_parameter_may_be_an_element_of_a_vector(
+    value: str, script: str, expected: float, tmp_path: Path
+) -> None:
+    """It could not be parsed."""
+    assert constant(value, script, tmp_path) == expected
+
+
+@pytest.mark.parametrize("value", ["K(4)", "K(0)", "K(1, 2, 3)", "K(0.5)", "K()"])
+def test_an_element_that_there_is_not_is_refused(value: str, tmp_path: Path) -> None:
+    text = block("Constant", "c", 5, Value=value) + ports(5, "")
+    direct, lowered = refused(model(text, tmp_path, files={"values.m": "K = [2 5 7];"}))
+    assert direct.startswith("c: the parameter '([2 5 7])(")
+    assert lowered.startswith(f"c: the parameter '{value}'")
+
+
+def test_initial_values_in_charts_of_c_are_expressions_of_matlab(tmp_path: Path) -> None:
+    """A vector could not be indexed, and 3/2 was 1."""
+    data = datum(10, "a", "INPUT_DATA", "double") + datum(11, "y", "OUTPUT_DATA", "int16", "3/2 + 3/2 + K(2)")
+    inside = '<P Name="SFBlockType">Chart</P><System/>'
+    label = chart("A&#xA;du: y = y + 1;", data).replace('<P Name="actionLanguage">2</P>', "")
+    values = {"k.m": "K = [1 4];"}
+    read = model(
+        ports(5, "", "y") + block("SubSystem", "C", 5, inside), tmp_path, "", label, values
+    )  # fmt: skip
+    assert run(read, [{}, {}]) == [(7,), (8,)]
+
+
 def test_a_value_that_doubles_in_each_line_does_not_grow_without_end() -> None:
     named, text = {"A": "1"}, "A"
     for _ in range(60):

@@ -106,6 +106,32 @@ def test_an_order_that_is_none_is_zero_and_an_end_that_is_not_there_is_none(tmp_
     assert (dangling.source, dangling.target, dangling.order) == (1, None, 0)
 
 
+# --- what is commented out ---------------------------------------------------------------------------------
+
+
+def commented(chart: WrittenChart) -> None:
+    """A state with a child, a transition and a function that are commented out, each in its way."""
+    explicit, implicit = {"isExplicitlyCommented": 1}, {"isImplicitlyCommented": 1}
+    one, other = chart.state("One"), chart.state("Other")
+    out = chart.state("Out", more=explicit)
+    inner = chart.state("Inner", out)
+    chart.transition(None, one)
+    chart.transition(None, inner, holder=out)
+    chart.transition(one, out, "[a]", 1)
+    chart.transition(inner, one, "[b]", 1)
+    chart.transition(one, other, "[c]", 2, more=explicit)
+    chart.transition(one, other, "[d]", 3)
+    chart.transition(other, one, "[e]", 1, more=implicit)
+    chart.function("f", inside={"commentInfo": explicit})
+
+
+def test_what_is_commented_out_is_as_if_it_were_not_drawn(tmp_path: Path) -> None:
+    """States and transitions that are commented out were executed."""
+    chart = one_chart(commented, tmp_path)
+    assert [one.name for one in chart.content.every_state()] == ["One", "Other"]
+    assert [one.label for one in chart.content.transitions] == ["", "[d]"]
+
+
 # --- states, functions and data ----------------------------------------------------------------------------
 
 

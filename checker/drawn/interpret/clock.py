@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
+from rovercheck.checker.drawn.calls import refuse_seconds
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Name, parts
 from rovercheck.checker.drawn.grammar.trees import expressions_of
@@ -28,6 +29,7 @@ class ChartClock:
     """The times of one chart with steps of so many seconds, as written."""
 
     def __init__(self, chart: ParsedChart, step: str) -> None:
+        self._chart = chart
         self._step: Fraction | None = None
         with suppress(ValueError, ZeroDivisionError):  # as ``auto``
             self._step = Fraction(step.strip())
@@ -117,6 +119,7 @@ class ChartClock:
         word = _word(unit)
         if word not in UNITS:
             raise DrawnFault(f"{word} is no unit of time: write sec, msec or usec")
+        refuse_seconds(word, self._chart.root.events.values())
         return self._step / UNITS[word]
 
     def _duration(self, operator: Expression, condition: Expression, frame: CallFrame, by: Evaluator) -> int:

@@ -3,14 +3,14 @@
 The rules are those of the user's guide of Stateflow, in the order in which it gives them.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Literal
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
-from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Applied, Expression, Member, Name
 from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
@@ -60,12 +60,15 @@ class ChartMachine:
         self.begun = False
         self._activities = [d for d in chart.root.data.values() if d.activity_of is not None]
         self.output_events = OutputEvents(chart)
+        self.executed: dict[int, Callable[[Mapping[str, MatlabValue]], Mapping[str, MatlabValue]]] = {}
+        """Of each Simulink function, by SSID, what its blocks give for some arguments."""
         self.fired: list[TransitionNode] = []
         """The transitions taken in this step, those of flow charts too."""
         self.memory.declare_all(chart, named or {}, self._initial)
 
     def _initial(self, text: str) -> MatlabValue:
-        return self._runner.value(parse_expression(text, self.chart.language), self._frame(self.chart.root))
+        tree = parse_expression(text, ActionLanguage.MATLAB)  # as a parameter, whatever the chart's language
+        return self._runner.value(tree, self._frame(self.chart.root))
 
     def _frame(self, node: StateNode, holds: StateNode | None = None) -> CallFrame:
         """Where a text of a state stands; what it does further is dropped once ``holds`` is not active."""
@@ -85,7 +88,6 @@ class ChartMachine:
 
     def step(self, events: Sequence[str] = ()) -> None:
         """One step with the inputs as they are; with input events, one execution for each of them."""
-        self.fired = []
         self.memory.note_start()
         self.clock.begin(self.active)
         if self.chart.drawn.initializes_outputs:
@@ -364,7 +366,9 @@ class ChartMachine:
             frame = CallFrame(function.holder, self.rules, script=script, calls=calls)
             frame.persistent = self._persistent.setdefault(function.drawn.ssid, {})
             return self._runner.script(function.script[0], arguments, frame)
-        if function.flow is None or function.drawn.function == "Simulink":
+        if function.drawn.ssid in self.executed:
+            return self._executed(function, arguments)
+        if function.flow is None:
             raise DrawnFault(f"{function.signature.name} is a function that is not known here")
         flow, signature = function.flow, function.signature
         for name, one in flow.data.items():
@@ -374,6 +378,21 @@ class ChartMachine:
         frame = CallFrame(flow, self.rules, calls=calls)
         self._search(flow.defaults, frame, in_function=True)
         return [self.memory.values[flow.data[name].ssid] for name in signature.outputs]
+
+    def _executed(self, function: FunctionNode, arguments: Sequence[MatlabValue]) -> list[MatlabValue]:
+        """A Simulink function: its arguments and results are matched with its ports by name."""
+        signature, data = function.signature, function.data
+        if len(arguments) != len(signature.inputs):
+            raise DrawnFault(
+                f"{signature.name} takes {len(signature.inputs)} values, and {len(arguments)} are given"
+            )
+        for name, value in zip(signature.inputs, arguments, strict=True):
+            if name is not None:
+                self.memory.write(data[name].ssid, value)
+        given = {name: self.memory.values[one.ssid] for name, one in data.items()}
+        for name, value in self.executed[function.drawn.ssid](given).items():
+            self.memory.write(data[name].ssid, value)
+        return [self.memory.values[data[name].ssid] for name in signature.outputs]
 
     # --- a MATLAB function as a block ----------------------------------------------------------------------
 

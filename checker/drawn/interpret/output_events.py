@@ -1,7 +1,8 @@
-"""Events of a chart to other blocks: a signal for each, which changes where the event occurs."""
+"""Events of a chart to other blocks: a signal for each, which changes where the event occurs, or a call."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
+from rovercheck.checker.drawn.calls import FUNCTION_CALL
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.values import FALSE, Scalar, logical
 from rovercheck.checker.drawn.parsed import ParsedChart, output_events
@@ -17,6 +18,8 @@ class OutputEvents:
         self._events = {one.name: one for one in output_events(chart.root)}
         self._signals = dict.fromkeys(self._events, FALSE)
         self._waiting = dict.fromkeys(self._events, 0)
+        self.call: Callable[[str], None] | None = None
+        """Executes what a function call calls, by the name of the event; none before the first step."""
 
     def __contains__(self, name: str) -> bool:
         return name in self._events
@@ -26,15 +29,15 @@ class OutputEvents:
         return iter(self._signals.values())
 
     def send(self, name: str) -> None:
-        """The signal of an event changes at the end of this step, or of a later one.
+        """The signal of an event changes at the end of this step, or of a later one; a function call is done.
 
-        Raises ``DrawnFault`` for a function call, and where too many wait.
+        Raises ``DrawnFault`` where too many wait, and for a function call before the first step.
         """
-        if self._events[name].trigger == "function call":
-            raise DrawnFault(
-                f"{name} is a function call of other blocks, which is not known here: make its trigger "
-                "Either Edge, and that of the blocks either"
-            )
+        if self._events[name].trigger == FUNCTION_CALL:
+            if self.call is None:
+                raise DrawnFault(f"{name} is a function call, sent before the first step: send it in a step")
+            self.call(name)
+            return
         if self._waiting[name] == MOST_WAITING:
             raise DrawnFault(f"{name} is sent while {MOST_WAITING} of it wait: each step gives one")
         self._waiting[name] += 1

@@ -1,23 +1,35 @@
 """Charts and MATLAB functions as blocks of a system."""
 
+from abc import abstractmethod
 from collections.abc import Sequence
 
 from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import Symbolic, filled, folded, leaves, size_of
+from rovercheck.checker.drawn.lower.symbols import Symbolic, filled, folded, leaves, size_of, truth
 from rovercheck.checker.drawn.lower.triggers import TriggerWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
-from rovercheck.checker.drawn.parsed import ParsedChart
+from rovercheck.checker.drawn.parsed import ParsedChart, output_events
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
-from rovercheck.spec_model.lang.expr import Expr, Var, any_of
-from rovercheck.spec_model.lang.programmed import StepProgram
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of
+from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
+from rovercheck.spec_model.lang.system import Program
+
+FUNCTIONS = ("MATLAB function", "truth table")
+"""Charts that are one function each, without states."""
 
 
 class ChartBlockWriter(TriggerWriter):
     """The charts of one system."""
+
+    @abstractmethod
+    def _call_all(self, node: BlockNode, chart: ParsedChart, made: ChartWriter) -> list[ProgrammedChart]:
+        """Write what the function calls of a chart call, into its writer.
+
+        The answer are the charts among that, which have no turn of their own.
+        """
 
     def _chart(self, node: BlockNode) -> list[Component]:
         context, chart = self.context, self.context.chart(node.block.chart)
@@ -25,41 +37,74 @@ class ChartBlockWriter(TriggerWriter):
         view = ChartView(chart, name, context.file, context.table.starting)
         writer = ProgramWriter(name, context.most)
         made = self._writer(chart, view, writer)
-        self._feed(made, chart, self._values(node))
-        if chart.drawn.kind in ("MATLAB function", "truth table"):
-            made.run_block()
-            component: Component = Block(
-                name, writer.written(), text=f"The {chart.drawn.kind} {chart.drawn.path}.",
-                temporaries=tuple(writer.temporaries.values()),
-            )  # fmt: skip
-        else:
-            made.step(self._events(node, chart))
-            statements = writer.written()
-            program = StepProgram(
-                statements, tuple(writer.temporaries.values()), context.table.starting, dict(view.fired),
-                dict(view.tested),
-            )  # fmt: skip
-            component = view.made(program)
-            context.views[name] = view
-            if chart.drawn.at_initialization:
-                start = ProgramWriter(name, context.most)
-                first = self._writer(chart, view, start)
-                at_rest = [context.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
-                self._feed(first, chart, at_rest)
-                first.initialize()
-                context.starts.append(start)
+        node.outputs = self._outputs_of(made)
+        if chart.drawn.kind in FUNCTIONS:
+            return self._function(node, made)
+        others = self._call_all(node, chart, made)
+        self._feed(made, chart, node)
+        made.step(self._events(node, chart))
+        component = self._programmed(made, writer.written(), others)
+        context.views[name] = view
+        if chart.drawn.at_initialization:
+            self._start(node, made)
+        self._tell(made)
+        if not self._input_events(chart):
+            return [*others, component]
+        return [*others, Enabled(self._any_event(node, chart), component), *self._edges(node)]
+
+    def _function(self, node: BlockNode, made: ChartWriter) -> list[Component]:
+        """A MATLAB function, or a truth table, which is executed in every step or for each event."""
+        drawn, writer = made.chart.drawn, made.writer
+        self._feed(made, made.chart, node)
+        events = self._events(node, made.chart)
+        for _, condition in [("", TRUE)] if events is None else events:
+            writer.choose(condition, made.run_block)
+        component = Block(
+            writer.name, writer.written(), text=f"The {drawn.kind} {drawn.path}.",
+            temporaries=tuple(writer.temporaries.values()),
+        )  # fmt: skip
+        self._tell(made)
+        return [component, *(self._edges(node) if events is not None else [])]
+
+    def _programmed(
+        self, made: ChartWriter, statements: Program, others: Sequence[ProgrammedChart]
+    ) -> ProgrammedChart:
+        """A chart with the program of its step, in which it calls ``others``."""
+        view, places = made.view, (place for one in others for place in (one.entered, *one.locations))
+        return view.made(StepProgram(
+            statements, tuple(made.writer.temporaries.values()), self.context.table.starting,
+            dict(view.fired), dict(view.tested), tuple(places),
+        ))  # fmt: skip
+
+    def _start(self, node: BlockNode, made: ChartWriter) -> None:
+        """What a chart does that is entered before the first step."""
+        context, chart = self.context, made.chart
+        start = ProgramWriter(made.writer.name, context.most)
+        first = self._writer(chart, made.view, start)
+        first.executed = made.executed
+        start.temporaries |= made.borrowed
+        at_rest = [context.table.kinds.first_value(v.kind, *size_of(v)) for v in self._values(node)]
+        self._feed_values(first, chart, at_rest, [False] * len(at_rest))
+        first.initialize()
+        context.starts.append(start)
+
+    def _tell(self, made: ChartWriter) -> None:
+        """The data of a chart are data of the model, but for those that last no longer than its step."""
+        context, writer = self.context, made.writer
         context.temporaries |= writer.temporaries.keys()
-        for one in chart.root.data.values():
-            cells = made.cells[one.ssid]
-            for leaf, cell in leaves(cells, f"{name}.{one.name}"):
+        for one in made.chart.root.data.values():
+            for leaf, cell in leaves(made.cells[one.ssid], f"{writer.name}.{one.name}"):
                 at = cell.expr.name if isinstance(cell.expr, Var) else ""
                 if at not in writer.temporaries and at not in context.memories:  # else it changes later
                     context.data[leaf] = cell.expr
-        node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]
-        node.outputs += [signal for signal, _ in made.given.values()]
-        if isinstance(component, Block) or not self._input_events(chart):
-            return [component]
-        return [Enabled(self._any_event(node, chart), component), *self._edges(node)]
+
+    @staticmethod
+    def _outputs_of(made: ChartWriter) -> list[Symbolic]:
+        """The outputs of a chart by their ports; a function call is no value, and stands as one."""
+        root = made.chart.root
+        found = [made.cells[one.ssid] for one in root.data.values() if one.scope == "output"]
+        signals = (made.given.get(one.name) for one in output_events(root))
+        return [*found, *(truth(FALSE) if one is None else one[0] for one in signals)]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
         context = self.context
@@ -68,15 +113,24 @@ class ChartBlockWriter(TriggerWriter):
             lambda one, node: context.names.of_datum(chart.drawn, one, node),
         )  # fmt: skip
 
-    def _feed(self, made: ChartWriter, chart: ParsedChart, values: Sequence[Symbolic]) -> None:
-        """The inputs of a chart, in the types of its data."""
+    def _feed(self, made: ChartWriter, chart: ParsedChart, node: BlockNode) -> None:
+        """The inputs of a chart; what is called while it is executed is read as it is then."""
+        called = self._wiring.called
+        changes = [port is not None and port[0] in called for port in node.inputs]
+        self._feed_values(made, chart, self._values(node), changes)
+
+    def _feed_values(
+        self, made: ChartWriter, chart: ParsedChart, values: Sequence[Symbolic], changes: Sequence[bool]
+    ) -> None:
+        """Values as inputs in the types of its data; those that change in its step are not kept for it."""
         kinds, data = self.context.table.kinds, chart.root.data.values()
-        for one, value in zip((d for d in data if d.scope == "input"), values, strict=False):
+        inputs = (one for one in data if one.scope == "input")
+        for one, value, is_read_anew in zip(inputs, values, changes, strict=False):
             kind = kinds.kind(one.type)
             plain = kind and not kind.startswith("Bus: ")
             fitted = each_converted(value, kind, made.rules, kinds) if plain else value
             scalars = [
-                made.writer.kept(one.name, s) if not isinstance(s.expr, Var) else s
+                s if is_read_anew or isinstance(s.expr, Var) else made.writer.kept(one.name, s)
                 for _, s in leaves(fitted, "")
             ]
             made.cells[one.ssid] = filled(fitted, iter(scalars))

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable, Mapping
 
+from rovercheck.checker.drawn.calls import FUNCTION_CALL
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
+from rovercheck.checker.drawn.grammar.syntax import ActionLanguage
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.kinds import sizes
@@ -44,7 +46,7 @@ class ChartDataWriter(StatementWriter):
         self.rules = IntegerRules(chart.language.name != "MATLAB", chart.drawn.saturates)
         self._values_named, self._name_of = named, data_names
         self.given: dict[str, tuple[SymbolicScalar, SymbolicScalar]] = {}
-        """Of each event to other blocks its signal, and how many of it wait."""
+        """Of each event to other blocks that is no function call its signal, and how many of it wait."""
 
     def _declare_all(self) -> None:
         for node in self.chart.root.every():
@@ -56,6 +58,8 @@ class ChartDataWriter(StatementWriter):
                     self.cells[one.ssid] = self._declared(one, node, function)
 
         for event in output_events(self.chart.root):
+            if event.trigger == FUNCTION_CALL:
+                continue
             name = f"{self.writer.name}.{event.name}"
             signal = self.table.declared(name, truth(FALSE), doc=f"the event {event.name}")
             waiting = self.table.declared(f"{name}.waiting", number("uint8", 0), hidden=True)
@@ -75,6 +79,7 @@ class ChartDataWriter(StatementWriter):
             for _, cell in leaves(cells, name):
                 assert isinstance(cell.expr, Var)
                 self.writer.temporaries[cell.expr.name] = cell.expr
+                self.writer.assigned_anew.add(cell.expr.name)
         return cells
 
     def _described(self, one: DrawnData) -> str:
@@ -92,7 +97,7 @@ class ChartDataWriter(StatementWriter):
         given = None
         if text.strip():
             scope = TextScope(self.chart.root, self.rules)
-            given = self.value(parse_expression(text, self.chart.language), scope)
+            given = self.value(parse_expression(text, ActionLanguage.MATLAB), scope)
         if not kind:
             seen = self.table.kind_of(name)
             if seen is None and given is not None:

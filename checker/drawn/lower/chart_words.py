@@ -32,7 +32,7 @@ class WordWriter(ActiveStateWriter):
         named: Mapping[str, str], data_names: Callable[[DrawnData, StateNode], str],
     ) -> None:  # fmt: skip
         super().__init__(chart, view, table, writer, named, data_names)
-        self.times = ChartTimes(chart.drawn.path, step, table, writer)
+        self.times = ChartTimes(chart.drawn.path, step, table, writer, chart.root.events.values())
         self._most: int | None = None
         self._conditions: dict[tuple[str, int], tuple[StateNode, Callable[[], Expr]]] = {}
         self._starts: dict[str, SymbolicScalar] = {}

@@ -15,15 +15,14 @@ from rovercheck.checker.drawn.lower.builtins import greatest, least
 from rovercheck.checker.drawn.lower.chart_paths import TransitionPath
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import TextScope, state_in, words
-from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.program import ProgramPart, ProgramWriter, joined
 from rovercheck.checker.drawn.lower.symbols import NotLowered, SymbolicScalar, chosen, folded, single_of
 from rovercheck.checker.drawn.lower.transitions import TransitionWriter
 from rovercheck.checker.drawn.lower.view import ChartView
-from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
+from rovercheck.checker.drawn.parsed import ParsedChart, StateNode, output_events
 from rovercheck.checker.drawn.records import DrawnData
 from rovercheck.spec_model.lang.domain import Num
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr
-from rovercheck.spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var
 
 MOST_WAITING = 255
 """Times that an event to other blocks may wait, as each step gives one of them."""
@@ -37,8 +36,12 @@ class ChartWriter(TransitionWriter):
         named: Mapping[str, str], data_names: Callable[[DrawnData, StateNode], str],
     ) -> None:  # fmt: skip
         super().__init__(chart, view, table, writer, step, named, data_names)
-        self._parts: dict[object, tuple[list[Statement], int]] = {}
+        self._parts: dict[object, ProgramPart] = {}
         self._flows_only = not chart.root.children
+        self.called: Mapping[str, ProgramPart] | None = None
+        """What function calls call, by their names; nothing is before the first step."""
+        self.borrowed: Mapping[str, Var] = {}
+        """The temporaries of what is called."""
         self._declare_all()
 
     # --- a step --------------------------------------------------------------------------------------------
@@ -49,6 +52,18 @@ class ChartWriter(TransitionWriter):
         for event, condition in [("", TRUE)] if occurs is None else occurs:
             self.writer.choose(condition, partial(self._once, event))
         self._end_step()
+
+    def woken(self, events: Sequence[str], feed: Callable[[], None]) -> list[ProgramPart]:
+        """What each of some events does that other charts call; ``feed`` reads the inputs."""
+
+        def begin() -> None:
+            feed()
+            self._begin_step()
+
+        first = self.writer.alone(begin)
+        every = [self.writer.alone(partial(self._once, event)) for event in events]
+        last = self.writer.alone(self._end_step)  # when all that is to be counted is known
+        return [joined(first, one, last) for one in every]
 
     def initialize(self) -> None:
         """What happens before the first step, if it is so drawn."""
@@ -225,10 +240,13 @@ class ChartWriter(TransitionWriter):
                 pass
             case _:
                 return False
-        receiver = None if owner is None or name in self.given else state_in(scope.node, words(owner))
         if name in self.given:
             self._wait(name)
             return True
+        if name in (one.name for one in output_events(self.chart.root)):
+            self._call_out(name)
+            return True
+        receiver = None if owner is None else state_in(scope.node, words(owner))
         self._broadcast(name, receiver)
         if scope.left is not None and scope.alive is not None:
             self.writer.end(scope.left, folded(~scope.alive()))
@@ -239,12 +257,15 @@ class ChartWriter(TransitionWriter):
             return False
         return any(name in node.events for node in self.chart.root.every())
 
+    def _call_out(self, name: str) -> None:
+        """Execute what a function call calls, here and now."""
+        if self.called is None:
+            raise NotLowered(f"{name} is a function call, sent before the first step: send it in a step")
+        if (part := self.called.get(name)) is not None:
+            self.writer.include(*part)
+
     def _wait(self, name: str) -> None:
         """An event to other blocks changes its signal at the end of this step, or of a later one."""
-        if self.chart.root.events[name].trigger == "function call":
-            raise NotLowered(
-                f"{name} is a function call of other blocks: make its trigger Either Edge, and theirs either"
-            )
         _, waiting = self.given[name]
         now = single_of(self._now(waiting)).expr
         self.writer.choose(

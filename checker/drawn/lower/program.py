@@ -24,6 +24,10 @@ from rovercheck.spec_model.lang.system import Statement
 MOST_STATEMENTS = 100_000
 
 
+ProgramPart = tuple[list[Statement], int]
+"""Statements that are used in several places, and how many assignments they have."""
+
+
 class TooManyStatements(Exception):
     """The step of a chart is longer than it may be."""
 
@@ -41,6 +45,8 @@ class ProgramWriter:
     def __init__(self, name: str, most: int = MOST_STATEMENTS) -> None:
         self.name, self._most, self.size = name, most, 0
         self.temporaries: dict[str, Var] = {}
+        self.assigned_anew: set[str] = set()
+        """The temporaries that are data of functions, which each call assigns; others are assigned once."""
         self.faults: dict[str, Var] = {}
         self._rows: list[Statement] = []
         self._ends: dict[str, Var] = {}
@@ -147,7 +153,7 @@ class ProgramWriter:
         self._rows, self._open = rows, opened
         return first
 
-    def alone(self, write: Callable[[], None]) -> tuple[list[Statement], int]:
+    def alone(self, write: Callable[[], None]) -> ProgramPart:
         """The same of a part that is used in several places: nothing is known before it, nor ended by it.
 
         The answer says, too, how many assignments it has, which do not count until it is included.
@@ -268,9 +274,9 @@ class ProgramWriter:
 
     def kept(self, name: str, value: SymbolicScalar) -> SymbolicScalar:
         """A value as it is now, whatever is assigned later."""
-        if isinstance(value.expr, Const) or (
-            isinstance(value.expr, Var) and value.expr.name in self.temporaries
-        ):
+        if isinstance(value.expr, Const):
+            return value
+        if isinstance(value.expr, Var) and value.expr.name in self.temporaries.keys() - self.assigned_anew:
             return value
         var = self.temporary(name, domain_of(value.expr))
         self._rows.append(Assign(var, in_steps(value.expr, var)))
@@ -336,4 +342,9 @@ def _alike(one: dict[str, Const], other: dict[str, Const]) -> dict[str, Const]:
     }
 
 
-__all__ = ["MOST_STATEMENTS", "ProgramWriter", "TooManyStatements"]
+def joined(*parts: ProgramPart) -> ProgramPart:
+    """Parts one after the other."""
+    return [one for statements, _ in parts for one in statements], sum(size for _, size in parts)
+
+
+__all__ = ["MOST_STATEMENTS", "ProgramPart", "ProgramWriter", "TooManyStatements", "joined"]

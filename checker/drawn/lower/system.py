@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 
+from rovercheck.checker.drawn.calls import is_called
 from rovercheck.checker.drawn.lower.blocks import BLOCKS
-from rovercheck.checker.drawn.lower.chart_blocks import ChartBlockWriter
+from rovercheck.checker.drawn.lower.called_blocks import CalledBlockWriter
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
@@ -21,10 +22,13 @@ from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.records import DrawnSystem
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
-from rovercheck.spec_model.lang.expr import Const, Var, any_of
+from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of
+
+RESET = (("StatesWhenEnabling", "EnablePort", "TriggerPort"), ("OutputWhenDisabled", "Outport"))
+"""What may begin anew, and the blocks that say so."""
 
 
-class SystemWriter(ChartBlockWriter):
+class SystemWriter(CalledBlockWriter):
     """The components of one system."""
 
     def lowered(self, given: Sequence[Symbolic]) -> tuple[tuple[Component, ...], list[Symbolic]]:
@@ -37,13 +41,9 @@ class SystemWriter(ChartBlockWriter):
                 leaf_vars = (one.expr for _, one in leaves(node.memory, ""))
                 self.context.memories |= {var.name: var for var in leaf_vars if isinstance(var, Var)}
         for node in self.nodes:
-            try:
-                components += self._component(node, given)
-            except NotLowered as error:
-                where = " ".join(node.block.path.split())
-                raise NotLowered(
-                    str(error) if str(error).startswith(where) else f"{where}: {error}"
-                ) from error
+            if node.block.id not in self._wiring.called:
+                with self._told(node):
+                    components += self._component(node, given)
         self._remember()
         return tuple(components), [(self._values(node) or [number("double", 0)])[0] for node in self.ends]
 
@@ -67,19 +67,19 @@ class SystemWriter(ChartBlockWriter):
         return []
 
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
-        block, context = node.block, self.context
-        inner = SystemWriter(system, context, f"{self._path}_{block.name}".strip("_"))
-        components, ends = inner.lowered(self._values(node))
-        if not node.control:
+        block = node.block
+        if not node.control and not is_called(block):
+            inner = self._inner(block.name, system)
+            components, ends = inner.lowered(self._values(node))
             node.outputs = list(ends)
             self.remembered += inner.remembered
             return list(components)
-        for one in system.blocks:
-            for name, kind in (("StatesWhenEnabling", "EnablePort"), ("OutputWhenDisabled", "Outport")):
-                if one.kind == kind and one.parameters.get(name, "held") == "reset":
-                    raise NotLowered(f"{name} = reset: held is known here")
-        if node.control == "enable":
-            by, after = folded(any_of(*(folded(one > 0) for one in self._control(node)))), list[Component]()
+        by: Expr = FALSE
+        after: list[Component] = []
+        if is_called(block):
+            pass  # and nothing calls it
+        elif node.control == "enable":
+            by = folded(any_of(*(folded(one > 0) for one in self._control(node))))
         elif node.control == "trigger":
             ports = [one for one in system.blocks if one.kind == "TriggerPort"]
             kind = ports[0].parameters.get("TriggerType", "rising") if ports else "rising"
@@ -87,10 +87,21 @@ class SystemWriter(ChartBlockWriter):
             by, after = folded(any_of(*self._edge_conditions(node, [kind] * count))), self._edges(node)
         else:
             raise NotLowered(f"a subsystem that is controlled by {node.control}")
-        held, outputs = self._held(inner, ends, components)
-        node.outputs = outputs
-        inside = (*components, *held, *inner.delays())
+        inside = self._inside(node, system)
         return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
+
+    def _inner(self, name: str, system: DrawnSystem) -> "SystemWriter":
+        return SystemWriter(system, self.context, f"{self._path}_{name}".strip("_"))
+
+    def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
+        for one in system.blocks:
+            for name, *kinds in RESET:
+                if one.kind in kinds and one.parameters.get(name, "held") == "reset":
+                    raise NotLowered(f"{name} = reset: held is known here")
+        inner = self._inner(node.block.name, system)
+        components, ends = inner.lowered(self._values(node))
+        held, node.outputs = self._held(inner, ends, components)
+        return [*components, *held, *inner.delays()]
 
     def _held(
         self, inner: "SystemWriter", ends: Sequence[Symbolic], components: Sequence[Component]

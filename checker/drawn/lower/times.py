@@ -1,14 +1,17 @@
 """Times of a chart as counters of its steps, each of which stops where more makes no difference."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from fractions import Fraction
 
+from rovercheck.checker.drawn.calls import refuse_seconds
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperation, Expression, Name
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import NotLowered, chosen, folded, least_and_greatest
 from rovercheck.checker.drawn.parsed import StateNode
+from rovercheck.checker.drawn.records import DrawnEvent
 from rovercheck.spec_model.lang.domain import Num, integer
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, const
 from rovercheck.spec_model.lang.operators import Op
@@ -29,8 +32,10 @@ UNBOUNDED = 10_000
 class ChartTimes:
     """The counters of one chart.  Which there are is learned while it is lowered, as ranges of data are."""
 
-    def __init__(self, name: str, step: str, table: DataTable, writer: ProgramWriter) -> None:
-        self._name, self._table, self._writer = name, table, writer
+    def __init__(
+        self, name: str, step: str, table: DataTable, writer: ProgramWriter, events: Iterable[DrawnEvent] = ()
+    ) -> None:
+        self._name, self._table, self._writer, self._events = name, table, writer, tuple(events)
         self._step: Fraction | None = None
         with suppress(ValueError, ZeroDivisionError):  # as ``auto``
             self._step = Fraction(step.strip())
@@ -102,6 +107,10 @@ class ChartTimes:
             raise NotLowered(f"{unit} is no unit of time: write sec, msec or usec")
         if self._step is None:
             raise NotLowered("the length of a step is not known, and a time in seconds is asked for")
+        try:
+            refuse_seconds(unit, self._events)
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
         return self._step / UNITS[unit]
 
     def limit(self, name: str, limit: Expr, unit: str, node: StateNode, event: str) -> Expr:

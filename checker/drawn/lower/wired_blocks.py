@@ -1,8 +1,11 @@
 """The blocks of one system, what feeds each of them, and what delays remember."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from rovercheck.checker.drawn.calls import Port
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.context import LoweringContext
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
@@ -26,7 +29,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
-from rovercheck.checker.drawn.wiring import Port, SystemWiring, number_of, wired
+from rovercheck.checker.drawn.wiring import SystemWiring, number_of, wired
 from rovercheck.spec_model.lang.chart import Block, Component
 from rovercheck.spec_model.lang.expr import FALSE
 from rovercheck.spec_model.lang.walk import variables
@@ -111,6 +114,16 @@ class WiredBlocks:
 
     def _named(self, block: DrawnBlock) -> str:
         return self.context.names.of_block(block, plain_name(f"{self._path}_{block.name}"))
+
+    @staticmethod
+    @contextmanager
+    def _told(node: BlockNode) -> Iterator[None]:
+        """What has no formula is told with its block."""
+        try:
+            yield
+        except NotLowered as error:
+            where, text = " ".join(node.block.path.split()), str(error)
+            raise NotLowered(text if text.startswith(where) else f"{where}: {text}") from error
 
     # --- delays --------------------------------------------------------------------------------------------
 

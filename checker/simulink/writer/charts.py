@@ -3,9 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Literal, TypeAlias, TypeVar, Union
+from typing import TYPE_CHECKING, Literal, TypeAlias, TypeVar, Union
 
 from rovercheck.checker.simulink.writer.elements import Values
+
+if TYPE_CHECKING:
+    from rovercheck.checker.simulink.writer.systems import WrittenSystem
 
 SCOPES = {
     "input": "INPUT_DATA", "output": "OUTPUT_DATA", "local": "LOCAL_DATA", "constant": "CONSTANT_DATA",
@@ -115,6 +118,8 @@ class WrittenChart:
     more: Values = field(default_factory=dict)
     inside: Mapping[str, Values] = field(default_factory=dict)
     children: list[WrittenElement] = field(default_factory=list)
+    functions: "dict[str, WrittenSystem]" = field(default_factory=dict)
+    """The blocks of its Simulink functions, by their names."""
     last: int = 0
     frames: Mapping[int, tuple[float, float, float, float]] = field(default_factory=dict)
     """Where elements are drawn: left, top, width and height by SSID; others find a place."""

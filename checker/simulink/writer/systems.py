@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 from xml.etree.ElementTree import Element
 
-from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenData, WrittenEvent
+from rovercheck.checker.simulink.writer.charts import WrittenChart, WrittenData, WrittenEvent, WrittenState
 from rovercheck.checker.simulink.writer.elements import Values, below, made, put
 
 Counts: TypeAlias = Mapping[str, int]
@@ -84,9 +84,39 @@ class WrittenSystem:
         self.charts.append(chart)
         return self.add(WrittenBlock(sid, "SubSystem", name, {}, {}, chart)), chart
 
+    def simulink_function(self, chart: WrittenChart, label: str) -> "WrittenSystem":
+        """A Simulink function of a chart with its arguments and results; its blocks are still to be drawn."""
+        outs, _, call = label.rpartition("=")
+        name, _, ins = call.partition("(")
+        box = chart.function(label, inside={"simulink": {"isSimulinkFcn": 1, "blockName": name.strip()}})
+        for scope, names in (("function input", ins), ("function output", outs)):
+            for one in names.strip(" ()[]").replace(",", " ").split():
+                chart.data(one, scope, "Inherit: Same as Simulink", holder=box)
+        inside = WrittenSystem(self.numbers, self.charts, f"{chart.path}/{name.strip()}")
+        inside.block("TriggerPort", "function", {}, {}, TriggerType="function-call")
+        chart.functions[name.strip()] = inside
+        return inside
+
+    def atomic_subchart(
+        self, chart: WrittenChart, label: str, holder: WrittenState | None = None, order: int = 0,
+        binding: str = "",
+    ) -> tuple[WrittenState, WrittenChart]:  # fmt: skip
+        """A state of a chart whose content is a chart of its own."""
+        name = label.partition("\n")[0]
+        values = {"isComponent": 1, "blockName": name, "binding": binding or None}
+        state = chart.state(label, holder, order, inside={"simulink": values})
+        made = WrittenChart(f"{chart.path}/{name}", len(self.charts) + 1)
+        made.language, made.saturates = chart.language, chart.saturates
+        self.charts.append(made)
+        return state, made
+
     def _below(self, name: str) -> str:
         own = name.replace("/", "//")
         return f"{self.path}/{own}" if self.path else own
+
+    def count(self, kind: str) -> int:
+        """How many blocks of a kind there are."""
+        return sum(one.kind == kind for one in self.blocks)
 
     # --- as XML --------------------------------------------------------------------------------------------
 
@@ -167,6 +197,9 @@ def _of_chart(sid: str, chart: WrittenChart) -> tuple[WrittenSystem, Counts, Val
     for number, name in enumerate(outs, 1):
         port = inner.add(WrittenBlock(f"{sid}::{59 + number}", "Outport", name, {}, _port(number)))
         inner.line(f"{function}/{number + 1}", port)
+    for number, (name, system) in enumerate(chart.functions.items()):
+        counts = {"in": system.count("Inport"), "out": system.count("Outport"), "trigger": 1}
+        inner.add(WrittenBlock(f"{sid}::{100 + number}", "SubSystem", name, counts, {}, system))
     inner.line(demux, terminator)
     inner.line(function, demux)
     values = {

@@ -60,7 +60,7 @@ def _component(component: Component, wanted: _Wanted) -> Component:
             goals = _Goals(component.name, wanted)
             return Block(component.name, goals.actions(component.do, component.name), text=component.text)
         case ProgrammedChart():
-            return _programmed(component, _Goals(component.name, wanted))
+            return _programmed(component, wanted)
         case Chart():
             return WatchedChart(component, _Goals(component.name, wanted)).watched()
 
@@ -116,11 +116,15 @@ class _Goals:
         return [If(side.condition, raised) for side, raised in self.sides(expr, where)]
 
 
-def _programmed(chart: ProgrammedChart, goals: _Goals) -> Chart:
-    """An imported chart: a goal for each path that it may take, and none for sides of conditions."""
+def _programmed(chart: ProgrammedChart, wanted: _Wanted) -> Chart:
+    """An imported chart: a goal for each path that it, or a chart that it calls, may take.
+
+    There are none for sides of conditions.
+    """
     raised: dict[str, tuple[Action, ...]] = {}
-    known: dict[object, tuple[Action, ...]] = {}
+    parts: dict[str, tuple[_Goals, dict[object, tuple[Action, ...]]]] = {}
     for marker, path in chart.program.fired.items():
+        goals, known = parts.setdefault(path.chart, (_Goals(path.chart, wanted), {}))
         drawn = (path.source, path.target, path.order, path.label, path.place)  # with whatever event
         if drawn not in known:
             start = ".".join(path.source) if path.order else "default"

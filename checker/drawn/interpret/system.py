@@ -1,0 +1,362 @@
+"""The blocks of one system at work: charts, subsystems and what is around them, step by step."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import partial
+from typing import Protocol
+
+from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of, is_called
+from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.interpret.blocks import BLOCKS
+from rovercheck.checker.drawn.interpret.machine import ChartMachine
+from rovercheck.checker.drawn.interpret.memory import TypeTable
+from rovercheck.checker.drawn.interpret.values import (
+    TYPES,
+    MatlabValue,
+    NumberRules,
+    double,
+    each_converted,
+    scalars,
+)
+from rovercheck.checker.drawn.parameters import rate_of
+from rovercheck.checker.drawn.parsed import output_events, parsed_chart
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
+from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
+from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
+
+RESET = (("StatesWhenEnabling", "EnablePort", "TriggerPort"), ("OutputWhenDisabled", "Outport"))
+"""What may begin anew, and the blocks that say so."""
+FUNCTIONS = ("MATLAB function", "truth table")
+"""Charts that are one function each, without states."""
+
+
+class SharedParts(Protocol):
+    """What all systems of a model share."""
+
+    types: TypeTable
+    step_length: str
+    named: dict[str, str]
+
+    def chart(self, path: str) -> DrawnChart:
+        """The chart of a block.  Raises ``DrawnFault``."""
+
+    def value_of(self, text: str) -> MatlabValue:
+        """The value of a parameter.  Raises ``DrawnFault``."""
+
+
+@dataclass
+class BlockAtWork:
+    """A block at work: ``inputs`` are what feeds its input ports, by their numbers."""
+
+    block: DrawnBlock
+    inputs: list[tuple[str, int] | None]
+    system: "SystemAtWork | None" = None
+    chart: ChartMachine | None = None
+    control: str = ""
+    fed: tuple[str, int] | None = None
+    """What feeds its control port."""
+    trigger: str = "rising"
+    memory: MatlabValue | None = None
+    outputs: list[MatlabValue] = field(default_factory=list)
+    was: list[float] = field(default_factory=list)
+    """The values of its trigger in the step before."""
+    functions: "list[SystemAtWork]" = field(default_factory=list)
+    """Of a chart its Simulink functions."""
+    calls: Mapping[str, FunctionCall | None] = field(default_factory=dict)
+    """Of a chart its events that are function calls, and what they call."""
+    called: bool = False
+    """Whether it is executed where a chart calls it, and never else."""
+
+
+class SystemAtWork:
+    """The blocks of a system with their values."""
+
+    def __init__(self, system: DrawnSystem, runner: SharedParts) -> None:
+        self._runner = runner
+        wiring = wired(system)
+        self._nodes = [self._node(block, wiring) for block in wiring.order]
+        self._by_id = {node.block.id: node for node in self._nodes}
+        ends = [node for node in self._nodes if node.block.kind == "Outport"]
+        self._ends = sorted(ends, key=lambda node: number_of(node.block))
+        for node in self._nodes:
+            if node.chart is not None:
+                node.calls = self._calls_of(node.block, node.chart, wiring)
+                node.outputs = _outputs_of(node.chart)
+            elif node.system is not None:
+                node.outputs = node.system.at_rest()
+
+    def _node(self, block: DrawnBlock, wiring: SystemWiring) -> BlockAtWork:
+        self._check(block)
+        node = BlockAtWork(block, wiring.inputs_of(block), called=block.id in wiring.called)
+        control = [port for target, port in wiring.feeds if target == block.id and not port.isdigit()]
+        if control:
+            node.control, node.fed = control[0], wiring.feeds[block.id, control[0]]
+        if block.chart:
+            chart = parsed_chart(self._runner.chart(block.chart))
+            if chart.notes:
+                raise DrawnFault(str(chart.notes[0]))
+            runner = self._runner
+            node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
+            for function in simulink_functions(block, chart):
+                inside = SystemAtWork(function.system, runner)
+                node.functions.append(inside)
+                node.chart.executed[function.node.drawn.ssid] = partial(_executed, function, inside)
+        elif block.kind == "SubSystem" and block.system is not None:
+            node.system = SystemAtWork(block.system, self._runner)
+            ports_ = [one for one in block.system.blocks if one.kind == "TriggerPort"]
+            node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
+        elif block.kind in DELAYS:
+            node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
+        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", *_CONTROLS):
+            raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
+        return node
+
+    def _calls_of(
+        self, block: DrawnBlock, machine: ChartMachine, wiring: SystemWiring
+    ) -> Mapping[str, FunctionCall | None]:
+        outputs = sum(one.scope == "output" for one in machine.chart.root.data.values())
+        blocks = {name: node.block for name, node in self._by_id.items()}
+        events = output_events(machine.chart.root)
+        return calls_of(block, outputs, events, wiring.feeds, wiring.calls, blocks)
+
+    def _check(self, block: DrawnBlock) -> None:
+        """Refuse what would make a block run at another rate, or begin anew.  Raises ``DrawnFault``."""
+        path, parameters = " ".join(block.path.split()), block.parameters
+        written = parameters.get("SampleTime", "-1")
+        if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
+            written = chart.sample_time.strip() or "-1"
+        rate = rate_of(written, self._runner.named)
+        if rate not in ("-1", "0", "inf") and not _same_number(rate, self._runner.step_length):
+            step = self._runner.step_length
+            raise DrawnFault(
+                f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
+            )
+        for name, *kinds in RESET:
+            if block.kind in kinds and parameters.get(name, "held") == "reset":
+                raise DrawnFault(f"the block {path}: {name} = reset is not known here; held is")
+
+    def at_rest(self) -> list[MatlabValue]:
+        """The outputs of a system that was not executed yet."""
+        found: list[MatlabValue] = []
+        for node in self._ends:
+            written = node.block.parameters.get("InitialOutput", "[]").strip()
+            source = None if node.inputs[:1] in ([], [None]) else self._by_id[_port(node)[0]]
+            if written != "[]":
+                found.append(self._runner.value_of(written))
+            elif source is None or not (source.outputs or source.memory is not None):
+                found.append(double(0))
+            else:
+                found.append(self._value(_port(node)))
+        return found
+
+    def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
+        """Charts that are so drawn are entered before the first step, with inputs at rest."""
+        for node in self._nodes:
+            for one in node.functions:
+                one.initialize()
+            if node.chart is not None and node.chart.chart.drawn.kind not in FUNCTIONS:
+                if node.chart.chart.drawn.at_initialization:
+                    self._feed_at_rest(node, node.chart, inputs)
+                node.chart.initialize()
+                node.outputs = _outputs_of(node.chart)
+            if node.system is not None:
+                node.system.initialize()
+                node.outputs = node.system.at_rest()
+        for node in self._nodes:
+            if node.chart is not None:
+                node.chart.output_events.call = partial(self._call, node)
+
+    def _feed_at_rest(self, node: BlockAtWork, machine: ChartMachine, inputs: Sequence[MatlabValue]) -> None:
+        """What comes straight from an input of the model has its type already."""
+        data = [one for one in machine.chart.root.data.values() if one.scope == "input"]
+        for one, port in zip(data, node.inputs, strict=False):
+            block = None if port is None else self._by_id[port[0]].block
+            if block is not None and block.kind == "Inport" and number_of(block) <= len(inputs):
+                machine.memory.write(one.ssid, inputs[number_of(block) - 1])
+
+    def machines(self) -> Iterator[ChartMachine]:
+        """The charts here and in subsystems, in their order of execution."""
+        for node in self._nodes:
+            if node.chart is not None:
+                yield node.chart
+            for one in node.functions:
+                yield from one.machines()
+            if node.system is not None:
+                yield from node.system.machines()
+
+    def step(self, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
+        """The outputs of the system in one step."""
+        for node in self._nodes:
+            if not node.called:
+                with _told(node):
+                    node.outputs = self._executed(node, inputs)
+        found = [self._values(node)[0] for node in self._ends]
+        delays = [node for node in self._nodes if node.block.kind in DELAYS]
+        for node, values in [(node, self._values(node)) for node in delays]:
+            [node.memory] = values or [double(0)]
+        return found
+
+    def _executed(self, node: BlockAtWork, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
+        block = node.block
+        if block.kind == "Inport":
+            return [inputs[number_of(block) - 1]]
+        if node.memory is not None:
+            return [self._remembered(node)]
+        if block.kind == "Outport" or block.kind in _CONTROLS:
+            return []
+        values = self._values(node)
+        if node.chart is not None:
+            return self._charted(node, node.chart, values)
+        if node.system is not None:
+            if self._runs(node):
+                return node.system.step(values)
+            return node.outputs
+        try:
+            return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
+        except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
+            raise DrawnFault("its inputs and parameters do not fit each other") from error
+
+    @staticmethod
+    def _remembered(node: BlockAtWork) -> MatlabValue:
+        assert node.memory is not None
+        return node.memory
+
+    def _values(self, node: BlockAtWork) -> list[MatlabValue]:
+        """Of its inputs; one that is not connected is 0, in the type of the first that is."""
+        found = [None if port is None else self._value(port) for port in node.inputs]
+        kind = next((one.kind for one in found if one is not None), "double")
+        zero = each_converted(double(0), kind, NumberRules()) if kind in TYPES else double(0)
+        return [zero if one is None else one for one in found]
+
+    def _value(self, port: tuple[str, int]) -> MatlabValue:
+        node = self._by_id[port[0]]
+        if node.memory is not None:
+            return node.memory
+        return node.outputs[port[1] - 1]
+
+    def _runs(self, node: BlockAtWork) -> bool:
+        """Whether a subsystem is executed in this step."""
+        if is_called(node.block):
+            return False  # and nothing calls it
+        if not node.control or node.fed is None:
+            return True
+        now = [float(one.value) for one in scalars(self._value(node.fed))]
+        if node.control == "enable":
+            return any(one > 0 for one in now)
+        if node.control == "trigger":
+            before, node.was = node.was, now
+            return any(_edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
+        raise DrawnFault(f"a subsystem that is controlled by {node.control} is not known here")
+
+    def _charted(
+        self, node: BlockAtWork, machine: ChartMachine, values: Sequence[MatlabValue]
+    ) -> list[MatlabValue]:
+        self._feed(machine, values)
+        return _woken(machine, self._events(node, machine))
+
+    @staticmethod
+    def _feed(machine: ChartMachine, values: Sequence[MatlabValue | None]) -> None:
+        """The values of a chart's inputs; ``None``: one that stays as it is."""
+        data = machine.chart.root.data.values()
+        for one, value in zip((d for d in data if d.scope == "input"), values, strict=False):
+            if value is not None:
+                machine.memory.write(one.ssid, value)
+
+    # --- function calls ------------------------------------------------------------------------------------
+
+    def _call(self, caller: BlockAtWork, event: str) -> None:
+        """Execute what an event calls, with the outputs of its chart as they are now.
+
+        What that gives is seen by the chart at once, where it is among its inputs.
+        """
+        call = caller.calls[event]
+        if call is None or caller.chart is None:
+            return  # nothing is connected
+        caller.outputs = _outputs_of(caller.chart)
+        node = self._by_id[call.target]
+        with _told(node):
+            values = self._values(node)
+            if node.chart is not None:
+                self._feed(node.chart, values)
+                events = [one for one in node.chart.chart.root.events.values() if one.scope == "input"]
+                node.outputs = _woken(node.chart, [call_event(node.block.shown, events, call.event)])
+            elif node.system is not None:
+                node.outputs = node.system.step(values)
+        called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
+        pairs = zip(self._values(caller), called, strict=True)
+        self._feed(caller.chart, [value if by_call else None for value, by_call in pairs])
+
+    def _events(self, node: BlockAtWork, machine: ChartMachine) -> list[str] | None:
+        """The input events of this step; ``None`` for a chart without any, which runs in every step."""
+        every = [one for one in machine.chart.root.events.values() if one.scope == "input"]
+        if not every:
+            return None
+        now = [] if node.fed is None else [float(one.value) for one in scalars(self._value(node.fed))]
+        before, node.was = node.was, now
+        found = zip(every, before, now, strict=False)
+        return [one.name for one, old, new in found if _edge(one.trigger, old, new)]
+
+
+@contextmanager
+def _told(node: BlockAtWork) -> Iterator[None]:
+    """What has no meaning is told with its block."""
+    try:
+        yield
+    except DrawnFault as fault:
+        raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+
+
+def _executed(
+    function: SimulinkFunction, system: SystemAtWork, given: Mapping[str, MatlabValue]
+) -> Mapping[str, MatlabValue]:
+    """What a Simulink function gives for some arguments."""
+    found = system.step([given[name] for name in function.inputs])
+    return dict(zip(function.outputs, found, strict=True))
+
+
+def _woken(machine: ChartMachine, events: Sequence[str] | None) -> list[MatlabValue]:
+    """Wake up a chart by some events, or ``None``: by the step; the answer are its outputs."""
+    if machine.chart.drawn.kind in FUNCTIONS:
+        for _ in [""] if events is None else events:
+            machine.run_block()
+    elif events is None:
+        machine.step()
+    elif events:
+        machine.step(events)
+    return _outputs_of(machine)
+
+
+def _outputs_of(machine: ChartMachine) -> list[MatlabValue]:
+    """The values of a chart's outputs, in the order of their ports; those of events are the last."""
+    data = machine.chart.root.data.values()
+    found = [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
+    return [*found, *machine.output_events.signals()]
+
+
+def _same_number(one: str, other: str) -> bool:
+    try:
+        return Fraction(one) == Fraction(other)
+    except (ValueError, ZeroDivisionError):
+        return False
+
+
+def _port(node: BlockAtWork) -> tuple[str, int]:
+    port = node.inputs[0]
+    assert port is not None
+    return port
+
+
+_CONTROLS = ("EnablePort", "TriggerPort", "ActionPort")
+
+
+def _edge(kind: str, before: float, now: float) -> bool:
+    """Whether a signal rises or falls through 0 as a trigger of a kind asks for."""
+    if kind in ("function call", "function-call"):
+        raise DrawnFault("an event that is a function call, and a signal with edges comes in")
+    rises, falls = before <= 0 < now, before > 0 >= now
+    return {"rising": rises, "falling": falls}.get(kind, rises or falls)
+
+
+__all__ = ["SystemAtWork"]

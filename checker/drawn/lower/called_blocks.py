@@ -1,0 +1,191 @@
+"""Blocks that function calls of a chart execute: their statements, within those of the chart."""
+
+from abc import abstractmethod
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Protocol
+
+from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of
+from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.lower.chart_blocks import FUNCTIONS, ChartBlockWriter
+from rovercheck.checker.drawn.lower.chart_functions import ExecutedFunction
+from rovercheck.checker.drawn.lower.machine import ChartWriter
+from rovercheck.checker.drawn.lower.program import ProgramPart, ProgramWriter
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
+from rovercheck.checker.drawn.lower.view import ChartView
+from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
+from rovercheck.checker.drawn.parsed import ParsedChart, output_events
+from rovercheck.checker.drawn.records import DrawnSystem
+from rovercheck.checker.drawn.simulink_functions import simulink_functions
+from rovercheck.spec_model.lang.action import Assign, If, each_action
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.fired_transition import FiredTransition
+from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
+from rovercheck.spec_model.lang.system import Statement
+
+
+@dataclass
+class ExecutedParts:
+    """What some components do, as statements, and what these need: the charts keep only their states."""
+
+    charts: list[ProgrammedChart] = field(default_factory=list)
+    temporaries: dict[str, Var] = field(default_factory=dict)
+    fired: dict[str, FiredTransition] = field(default_factory=dict)
+    tested: dict[str, tuple[str, bool]] = field(default_factory=dict)
+
+    def statements(self, components: Iterable[Component]) -> list[Statement]:
+        """The statements of components in order."""
+        found: list[Statement] = []
+        for one in components:
+            match one:
+                case Enabled(by=by, components=inside):
+                    found.append(If(by, tuple(self.statements(inside))))
+                case Block(do=do, temporaries=temporaries):
+                    found += (action for action in do if isinstance(action, Assign | If))
+                    self.temporaries |= {var.name: var for var in temporaries}
+                case ProgrammedChart(program=program):
+                    found += program.statements
+                    self.add(one)
+        return found
+
+    def add(self, chart: ProgrammedChart) -> None:
+        """A chart of which the statements are executed elsewhere."""
+        program = chart.program
+        self.temporaries |= {var.name: var for var in program.temporaries}
+        self.fired |= program.fired
+        self.tested |= program.tested
+        self.charts.append(chart.with_program(StepProgram((), starting=program.starting)))
+
+
+class InnerSystem(Protocol):
+    """What writes a system of blocks."""
+
+    def lowered(self, given: Sequence[Symbolic]) -> tuple[tuple[Component, ...], list[Symbolic]]:
+        """The components in order, and the outputs."""
+
+    def delays(self) -> list[Component]:
+        """What its delays remember, once all else is done."""
+
+
+def _part(statements: list[Statement]) -> ProgramPart:
+    return statements, sum(1 for _ in each_action(statements))
+
+
+class CalledBlockWriter(ChartBlockWriter):
+    """The blocks of one system that charts in it call."""
+
+    @abstractmethod
+    def _inner(self, name: str, system: DrawnSystem) -> "InnerSystem":
+        """The writer of a system in this one, which is in a block of that name."""
+
+    @abstractmethod
+    def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
+        """All that a subsystem does in a step in which it is executed; its outputs keep their values."""
+
+    def _calls_of(self, node: BlockNode, chart: ParsedChart) -> dict[str, FunctionCall | None]:
+        wiring, outputs = self._wiring, sum(one.scope == "output" for one in chart.root.data.values())
+        blocks = {name: one.block for name, one in self._by_id.items()}
+        try:
+            return calls_of(
+                node.block, outputs, output_events(chart.root), wiring.feeds, wiring.calls, blocks
+            )
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+
+    def _call_all(self, node: BlockNode, chart: ParsedChart, made: ChartWriter) -> list[ProgrammedChart]:
+        calls, parts = self._calls_of(node, chart), ExecutedParts()
+        made.executed = self._functions(node, chart, made, parts)
+        written: dict[FunctionCall, ProgramPart] = {}
+        every = [call for call in calls.values() if call is not None]
+        for target in self._in_order({call.target for call in every}):
+            own = [call for call in every if call.target == target]
+            written |= zip(own, self._called(self._by_id[target], own, parts), strict=True)
+        made.called = {name: written[call] for name, call in calls.items() if call is not None}
+        made.borrowed = parts.temporaries
+        made.writer.temporaries |= parts.temporaries
+        made.view.fired |= parts.fired
+        made.view.tested |= parts.tested
+        return parts.charts
+
+    def _functions(
+        self, node: BlockNode, chart: ParsedChart, made: ChartWriter, parts: ExecutedParts
+    ) -> dict[int, ExecutedFunction]:
+        """The Simulink functions of a chart."""
+        found = {}
+        try:
+            every = list(simulink_functions(node.block, chart))
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+        for one in every:
+            given = [made.cells[one.node.data[name].ssid] for name in one.inputs]
+            inner = self._inner(f"{node.block.name}_{one.node.signature.name}", one.system)
+            components, ends = inner.lowered(given)
+            step, after = (_part(parts.statements(some)) for some in (components, inner.delays()))
+            outputs = dict(zip(one.outputs, ends, strict=True))
+            found[one.node.drawn.ssid] = ExecutedFunction(step, outputs, after)
+        return found
+
+    def _in_order(self, targets: Iterable[str]) -> list[str]:
+        """Each block after those that feed it, of those that one chart calls."""
+        waiting, found = sorted(targets), list[str]()
+        while waiting:
+            feeding = {
+                target: {port[0] for port in self._by_id[target].inputs if port is not None}
+                for target in waiting
+            }
+            ready = [target for target in waiting if not feeding[target] & {*waiting} - {target}]
+            if not ready:
+                told = " and ".join(self._by_id[one].block.shown for one in waiting)
+                raise NotLowered(f"{told} feed each other, and are called by one chart: put a delay between")
+            found += ready
+            waiting = [one for one in waiting if one not in ready]
+        return found
+
+    def _called(
+        self, node: BlockNode, calls: Sequence[FunctionCall], parts: ExecutedParts
+    ) -> list[ProgramPart]:
+        """What a block does for each of some calls."""
+        with self._told(node):
+            if node.block.chart:
+                return self._called_chart(node, calls, parts)
+            assert node.block.system is not None
+            return [_part(parts.statements(self._inside(node, node.block.system)))] * len(calls)
+
+    def _called_chart(
+        self, node: BlockNode, calls: Sequence[FunctionCall], parts: ExecutedParts
+    ) -> list[ProgramPart]:
+        context, chart = self.context, self.context.chart(node.block.chart)
+        events = [one for one in chart.root.events.values() if one.scope == "input"]
+        try:
+            names = [call_event(node.block.shown, events, call.event) for call in calls]
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+        name = context.names.of_chart(chart.drawn)
+        view = ChartView(chart, name, context.file, context.table.starting)
+        writer = ProgramWriter(name, context.most)
+        made = self._writer(chart, view, writer)
+        node.outputs = self._outputs_of(made)
+        feed = partial(self._feed, made, chart, node)
+        if chart.drawn.kind in FUNCTIONS:
+
+            def run() -> None:
+                feed()
+                made.run_block()
+
+            found = [writer.alone(run)] * len(calls)
+            parts.temporaries |= writer.temporaries
+        else:
+            others = self._call_all(node, chart, made)
+            found = made.woken(names, feed)
+            parts.add(self._programmed(made, (), others))
+            parts.charts += others
+            context.views[name] = view
+            if chart.drawn.at_initialization:
+                self._start(node, made)
+        self._tell(made)
+        return found
+
+
+__all__ = ["CalledBlockWriter", "ExecutedParts"]
