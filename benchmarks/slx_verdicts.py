@@ -22,6 +22,7 @@ from rovercheck.checker.export.slx import SlxModel, simulink_of
 from rovercheck.checker.model.drawn import SimulinkModel, read_simulink
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.forms import Property
@@ -155,24 +156,27 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
         )
         return Counter({kind: len(properties)})
     search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
+    since = monotonic()
     try:
-        found = list(results(properties, {system.name: again}, search, quiet=True))
+        for result in results(properties, {system.name: again}, search, quiet=True):
+            word = _compared(result, "read again" if system.concrete else "")
+            told[word] += 1
+            said = f"{result.property.id:24} {system.name:32} {word:12} {result.verdict.word:10}"
+            print(f"{said} {monotonic() - since:7.1f} s", flush=True)
+            since = monotonic()
     except ModelError as error:
         if len(properties) > 1:
-            return sum((_decided(system, [one], folder, seconds) for one in properties), told)
-        print(f"{properties[0].id}: {error}", flush=True)
+            return sum((_decided(system, [one], folder, seconds) for one in properties), Counter())
+        print(f"{properties[0].id:24} {system.name:32} not asked: {str(error).splitlines()[0]}", flush=True)
         return Counter({"not asked": 1})
-    for result in found:
-        apart = "read again" if system.concrete else ""  # the kept run is then one of another system
-        one = CheckedProperty(result, expected(result.property.id), apart)
-        if isinstance(result.verdict, Unknown):
-            told["not decided"] += 1
-        elif one.as_expected:
-            told["same"] += 1
-        else:
-            told["differs"] += 1
-            print(f"{result.property.id} on {system.name}: {one.word}", flush=True)
     return told
+
+
+def _compared(result: Result, apart: str) -> str:
+    """Whether a verdict is that of the rover's charts; ``apart``: its kept run is one of another system."""
+    if isinstance(result.verdict, Unknown):
+        return "not decided"
+    return "same" if CheckedProperty(result, expected(result.property.id), apart).as_expected else "differs"
 
 
 def _summary(told: Counter[str]) -> str:

@@ -278,6 +278,21 @@ def test_a_disabled_subsystem_holds_what_passes_through_it(tmp_path: Path) -> No
     assert both(runner, rows, "y2") == [3, 3, 1, 1, 2]
 
 
+def test_a_subsystem_gives_the_first_value_of_an_output_that_its_chart_never_writes(tmp_path: Path) -> None:
+    """It was held in a variable of the same name that began as 0, and the model was refused."""
+    model = WrittenModel("one", step="0.1")
+    u = model.root.inport("u", 1, OutDataTypeStr="double")
+    block, inside = model.root.subsystem("Sub", 0, 1, "enable")
+    inside.block("EnablePort", "Enable", {}, {})
+    inner, chart = inside.chart("C")
+    chart.data("y", "output", "double", 3)
+    chart.transition(None, chart.state("A"))
+    inside.line(inner, inside.outport("y", 1))
+    model.root.line(u, f"{block}#enable")
+    model.root.line(block, model.root.outport("y", 1))
+    assert both(ModelRunner(read_model(model.save(tmp_path / "one.slx"))), [0, 1, 0], "y") == [3, 3, 3]
+
+
 def test_a_state_transition_table_is_entered_at_initialization(tmp_path: Path) -> None:
     """The interpreter entered only charts of states before the first step."""
     model = WrittenModel("one", step="0.1")

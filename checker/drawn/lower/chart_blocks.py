@@ -53,6 +53,8 @@ class ChartBlockWriter(TriggerWriter):
             cells = made.cells[one.ssid]
             for leaf, cell in leaves(cells, f"{name}.{one.name}"):
                 at = cell.expr.name if isinstance(cell.expr, Var) else ""
+                if one.scope != "input":
+                    self.own.add(at)
                 if at not in writer.temporaries and at not in context.memories:  # else it changes later
                     context.data[leaf] = cell.expr
         node.outputs = [made.cells[one.ssid] for one in chart.root.data.values() if one.scope == "output"]

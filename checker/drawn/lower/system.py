@@ -70,6 +70,7 @@ class SystemWriter(ChartBlockWriter):
         block, context = node.block, self.context
         inner = SystemWriter(system, context, f"{self._path}_{block.name}".strip("_"))
         components, ends = inner.lowered(self._values(node))
+        self.own |= inner.own
         if not node.control:
             node.outputs = list(ends)
             self.remembered += inner.remembered
@@ -97,7 +98,7 @@ class SystemWriter(ChartBlockWriter):
     ) -> tuple[list[Component], list[Symbolic]]:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.context.table, list[Symbolic](), list[Component]()
-        written = {name for part in parts(components) for name in part.written}
+        written = {name for part in parts(components) for name in part.written} | inner.own
         cells_ = (one.expr for _, memory, _ in inner.remembered for _, one in leaves(memory, ""))
         memories = {var.name: var for var in cells_ if isinstance(var, Var)}
         for end, value in zip(inner.ends, ends, strict=True):
