@@ -1,6 +1,7 @@
 """A random system of charts, and the model of Simulink that is written of it, run beside each other."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -8,6 +9,7 @@ from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.drawn.lower.run import LoweredRun
+from rovercheck.checker.explore.by_hand.admissible_inputs import drawn
 from rovercheck.checker.export.slx import simulink_of
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart, Component, Enabled
@@ -16,15 +18,14 @@ from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.interpret import Interpreter
-from rovercheck.spec_model.lang.system import TICK_MS, System, in_order
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TICK_MS, System, TransitionSystem, in_order
 from tests.random_formulas import Choices, Source, T
 from tests.strategies import FROZEN, INPUTS, a_datum, a_part
 
 ROWS = 60
 ROUNDED = 1e-9
 """By how much the interpreter, which computes as MATLAB does, may miss a decimal number."""
-TRIES = 300
-"""Inputs that are tried until some are as a system assumes them."""
 
 
 class SeededChoices(Choices):
@@ -86,8 +87,8 @@ def _in_subsystems(choices: SeededChoices, parts: Sequence[Component], source: S
 def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> int:
     """Run the system and what is read of its file, in both readings; the answer is how many rows were alike.
 
-    Inputs are as the system assumes them; where none are found, the run ends.  Raises ``AssertionError``
-    where they differ, ``ModelError`` for a system that is refused.
+    Inputs are as the system assumes them.  Raises ``AssertionError`` where they differ, ``ModelError`` for a
+    system that is refused.
     """
     made = simulink_of(system)
     path = folder / "random.slx"
@@ -95,18 +96,14 @@ def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> in
     model, said = read_model(path), read_domains(domains_path(path))
     lowered = lowered_model(model, path.name, said.domains)
     runs = LoweredRun(lowered), ModelRunner(model)
-    random = Random(seed)
-    frozen = _begun(system, random)
-    if frozen is None:
-        return 0
-    own, now = Interpreter(system, frozen), dict[str, int]()
-    every = {**system.inputs, **{v.name: v for v in system.frozen}}
+    random, inputs = Random(seed), AssumedInputs(system)
+    now = inputs.first(random)
+    frozen = {v.name: now[v.name] for v in system.frozen}
+    own, every = Interpreter(system, frozen), {**system.inputs, **{v.name: v for v in system.frozen}}
     for row in range(rows):
-        found_inputs = _inputs(system, random, now, {**own.valuation(), **frozen})
-        if found_inputs is None:
-            return row
-        now = found_inputs
-        own.step(now)
+        if row:
+            now = inputs.further(random, {**own.valuation(), **frozen}, now)
+        own.step({name: now[name] for name in system.inputs})
         raw = {**now, **frozen}
         given = {made.inputs[n]: _number(every[n], raw[n]) for n in made.inputs}
         at = own.valuation()
@@ -129,28 +126,31 @@ def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> in
     return rows
 
 
-def _begun(system: System, random: Random) -> dict[str, int] | None:
-    """Frozen values with which there are inputs for the first step."""
-    for _ in range(TRIES):
-        frozen = {v.name: random.choice(v.domain.values) for v in system.frozen}
-        at = {**Interpreter(system, frozen).valuation(), **frozen}
-        if _inputs(system, random, {}, at) is not None:
-            return frozen
-    return None
+class AssumedInputs:
+    """Random inputs and frozen values as a system assumes them.  Raises ``LookupError`` if none are found."""
 
+    def __init__(self, system: System) -> None:
+        made = lower(system)
+        self._system, self._frozen = made, made.frozen
+        self._first = replace(made, inputs=(*made.inputs, *made.frozen), frozen=())
 
-def _inputs(
-    system: System, random: Random, now: Mapping[str, int], at: Mapping[str, int]
-) -> dict[str, int] | None:
-    """The inputs of the next step: those before, some of them changed, as the system assumes them."""
-    for attempt in range(TRIES):
-        found = dict(now)
-        for name, var in system.inputs.items():
-            if name not in now or random.random() < 0.3 / (1 + attempt % 10):
-                found[name] = random.choice(var.domain.values)
-        if evaluate(system.assumed, {**at, **found}):
-            return found
-    return None
+    def first(self, random: Random) -> dict[str, int]:
+        """Those of the first step."""
+        some = {v.name: random.choice(v.domain.values) for v in self._first.inputs}
+        return self._drawn(self._first, random, self._first.init, some)
+
+    def further(self, random: Random, at: Mapping[str, int], now: Mapping[str, int]) -> dict[str, int]:
+        """Those of a step after others."""
+        return self._drawn(self._system, random, at, now)
+
+    @staticmethod
+    def _drawn(
+        system: TransitionSystem, random: Random, at: Mapping[str, int], now: Mapping[str, int]
+    ) -> dict[str, int]:
+        found = drawn(system, at, now, [v.name for v in system.inputs], random)
+        if found is None:
+            raise LookupError(f"{system.name}: no inputs are found as it assumes them")
+        return found
 
 
 def _holds(chart: Chart, path: Path_, at: Mapping[str, int]) -> int:
