@@ -1,6 +1,7 @@
 """What the lowering of drawn models once did otherwise than the direct interpreter."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -318,6 +319,37 @@ def test_a_number_is_rounded_to_steps_larger_than_one(tmp_path: Path) -> None:
     lowered = lowered_model(runner.model, "one.slx", {"u": fixed(0, 20, 1), "log": fixed(0, 100, 5)})
     run = LoweredRun(lowered)
     assert [run.step({"u": value})["log"] for value in (0, 1, 2, 13)] == [0, 0, 5, 15]
+
+
+def test_a_region_that_is_entered_asks_for_one_that_is_not_yet(tmp_path: Path) -> None:
+    """In a chart without events, all regions were active as soon as the first was entered."""
+
+    def draw(chart: WrittenChart) -> None:
+        chart.parallel = True
+        chart.state("A\nen: if in(B), log = 1; else, log = 2; end\ndu: if in(B), log = 3; end", None, 1)
+        chart.state("B", None, 2)
+
+    assert both(running(tmp_path, draw), [1, 1], "log") == [2, 3]
+
+
+def test_regions_have_a_variable_only_where_some_may_be_active_alone(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart, section: str) -> None:
+        chart.event("E")
+        whole = chart.state("P", parallel=True)
+        chart.transition(None, whole)
+        chart.state(f"A\n{section}: if u > 1, send(E, P.B); end", whole, 1)
+        other = chart.state("B", whole, 2)
+        first, second = chart.state("B1", other), chart.state("B2\nen: log = log + 1;", other)
+        chart.transition(None, first)
+        chart.transition(first, second, "E")
+        chart.transition(second, first, "E", 2)
+
+    for section, count in (("du", 0), ("en", 2)):
+        model = running(tmp_path, partial(draw, section=section)).model
+        domains = {"u": fixed(0, 9, 1), "log": fixed(0, 9, 1)}
+        written = lowered_model(model, "one.slx", domains).system.written
+        assert sum(name.endswith(".active") for name in written) == count
+        assert compared(model, [{"u": n} for n in (2, 0, 3, 2)], domains=domains).rows == 4
 
 
 def test_states_that_share_a_junction_count_a_duration_each(tmp_path: Path) -> None:
