@@ -13,6 +13,7 @@ from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.spec_model.lang.domain import fixed
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from tests.drawn.charts import LOG, note, running
 from tests.drawn.two_readings import Row, compared
 
@@ -350,6 +351,25 @@ def test_regions_have_a_variable_only_where_some_may_be_active_alone(tmp_path: P
         written = lowered_model(model, "one.slx", domains).system.written
         assert sum(name.endswith(".active") for name in written) == count
         assert compared(model, [{"u": n} for n in (2, 0, 3, 2)], domains=domains).rows == 4
+
+
+def test_what_is_done_in_the_first_step_as_in_others_does_not_ask_which_one_it_is(tmp_path: Path) -> None:
+    def draw(chart: WrittenChart) -> None:
+        chart.parallel = True
+        chart.state("A\nen, du: g = u;", None, 1)
+        chart.state("B\nen: log = 5;\ndu: log = g;", None, 2)
+        chart.state("C\nen, du: mode = g + 1;", None, 3)
+        for name in ("g", "mode"):
+            chart.data(name, "output", "double", 0)
+
+    model = running(tmp_path, draw).model
+    numbers = {name: fixed(0, 30, 1) for name in ("u", "log", "g", "mode")}
+    [chart] = lowered_model(model, "one.slx", numbers).system.charts
+    assert isinstance(chart, ProgrammedChart)
+    first, choice, last = chart.program.unmarked
+    assert [one.written for one in (first, last)] == [{"g"}, {"mode"}]
+    assert choice.written == {"log", chart.entered.name}
+    assert compared(model, [{"u": n} for n in (2, 0, 3)], domains=numbers).rows == 3
 
 
 def test_states_that_share_a_junction_count_a_duration_each(tmp_path: Path) -> None:

@@ -129,6 +129,7 @@ class ChartWriter(TransitionWriter):
             self._execute_root()
         else:
             self.writer.choose(self._has_begun, self._execute_root, self._first)
+            self.writer.end_alike(self.view.begun.name)
         self._stack.pop()
 
     def _first(self) -> None:
