@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import reduce
 
+from rovercheck.checker.drawn.lower.first_step import written_once
 from rovercheck.checker.drawn.lower.symbols import (
     TWO_TYPES,
     Symbolic,
@@ -128,6 +129,12 @@ class ProgramWriter:
             self._rows.append(If(condition, tuple(one), tuple(other)))
             self._grow(1)
         self._skip(first_raised | then_raised, sure=one_ended and other_ended)
+
+    def end_alike(self, flag: str) -> None:
+        """Write once what both sides of the last choice do, which is one by a flag."""
+        last = self._rows[-1] if self._rows else None
+        if isinstance(last, If) and last.read == {flag}:
+            self._rows[-1:] = written_once(last, flag)
 
     def _side(self, write: Callable[[], None]) -> tuple[list[Statement], bool, dict[str, Var]]:
         """The statements of one of two sides, whether it ends something in any case, and what it may end."""

@@ -81,7 +81,7 @@ class TransitionWriter(FunctionWriter):
                     assert self._dropped is not None
                     self.writer.end(self._dropped, folded(~self.active(node)))
                 further = chain[1:] if chain and chain[0] is region else []
-                already = self.active(region) if self.sends else FALSE
+                already = self.active(region) if region.ssid in self._regions else FALSE
                 self.writer.choose(already, lambda: None, partial(self._enter, region, further))
         elif chain:
             self._enter(chain[0], chain[1:])
