@@ -114,6 +114,8 @@ class PathWriter(WordWriter):
     def _occurs(self, event: Expression, scope: TextScope) -> Expr:
         """Whether an event is the current one, or a temporal condition holds."""
         match event:
+            case Name("tick" | "wakeup" as name) if not self._is_event(name, scope):
+                return const(not self._is_nested)
             case Name(name) | Member(_, name):
                 return const(bool(name) and scope.event == name)
         found = self.word(event, scope)

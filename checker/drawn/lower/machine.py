@@ -234,11 +234,6 @@ class ChartWriter(TransitionWriter):
             self.writer.end(scope.left, folded(~scope.alive()))
         return True
 
-    def _is_event(self, name: str, scope: TextScope) -> bool:
-        if scope.function and f"{scope.function}:{name}" in self.writer.locals:
-            return False
-        return any(name in node.events for node in self.chart.root.every())
-
     def _wait(self, name: str) -> None:
         """An event to other blocks changes its signal at the end of this step, or of a later one."""
         if self.chart.root.events[name].trigger == "function call":
