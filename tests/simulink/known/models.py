@@ -1,8 +1,9 @@
 """What a known chart is: its text, what it may be given, and a simulation of it by hand."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from rovercheck.spec_model.lang.domain import Domain
 from tests.simulink.known.packages import ChartText
 
 Row = Mapping[str, float]
@@ -17,6 +18,7 @@ class Known:
     given: Mapping[str, Sequence[float]]
     simulate: Simulation
     rows: int = 150
+    domains: Mapping[str, Domain] = field(default_factory=dict)
 
 
 __all__ = ["Known", "Row", "Simulation"]
