@@ -41,9 +41,9 @@ def test_the_last_digits_of_single_precision_are_no_difference(
 ) -> None:
     """0.1 in single precision is another number, and was told as `y is 0.025 and 0.025`."""
     path = SINGLE.save(tmp_path, "R2024a")
-    domain = "{ low = -1, high = 1, resolution = 0.0125 }"
+    domain = "{ low = -1, high = 1, resolution = 0.00025 }"
     path.with_suffix(".domains.toml").write_text(
-        f"[domains]\nu = {{ values = [-0.1, 0.1, 0.2] }}\nrate = {{ low = 0, high = 1 }}\nacc = {domain}\n",
+        f"[domains]\nu = {{ values = [0, 0.103] }}\nrate = {{ low = 0, high = 1 }}\nacc = {domain}\n",
         encoding="utf-8",
     )
     assert "Real numbers are exact" not in imported(path, capsys)[1]
