@@ -7,6 +7,7 @@ import pytest
 
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from tests.drawn.two_readings import compared
+from tests.simulink.known.appliances import APPLIANCES
 from tests.simulink.known.events import EVENTS
 from tests.simulink.known.machines import MACHINES
 from tests.simulink.known.models import Known
@@ -14,7 +15,7 @@ from tests.simulink.known.packages import Layout
 from tests.simulink.known.semantics import SEMANTICS
 from tests.simulink.known.supervisors import SUPERVISORS
 
-CHARTS = (*SEMANTICS, *EVENTS, *MACHINES, *SUPERVISORS)
+CHARTS = (*SEMANTICS, *EVENTS, *MACHINES, *SUPERVISORS, *APPLIANCES)
 LAYOUTS: tuple[Layout, ...] = ("R2015a", "R2024a")
 
 
