@@ -366,10 +366,10 @@ ABORT = ChartText(
     in go boolean
     in fault uint8
     in alt uint16
+    in safe boolean
     out mode uint8
     out armed boolean
     event ABORT
-    event SAFE input either
     -> Pad
     state Pad: en: mode = 0; armed = false;
     subchart Flight
@@ -379,7 +379,7 @@ ABORT = ChartText(
             state Bad
             Ok -> Bad: [duration(fault > 0) >= 0.2]
             Bad -> Ok: [fault == 0]
-            Bad -> Bad: [after(3, tick)]{send(ABORT)}
+            Bad -> Bad: [after(3, tick)]/send(ABORT)
         region Modes
             -> Low
             state Low: en: mode = 1;\\nen: armed = true;
@@ -391,12 +391,50 @@ ABORT = ChartText(
     state Tower: en: mode = 3; armed = false;
     state Coast: en: mode = 4;
     Pad -> Flight: [go]
-    Tower -> Pad: SAFE
-    Coast -> Pad: SAFE[alt < 50]
-    Flight -> Pad: SAFE[fault > 8]
+    Tower -> Pad: [safe]
+    Coast -> Pad: [safe && alt < 50]
+    Flight -> Pad: [safe && fault > 8]
     """,
     "MATLAB",
 )
+
+
+def _abort(rows: Iterable[Row]) -> Outs:
+    state, monitor, mode, armed, held, ticks, before = "", "", 0, 0, 0, 0, None
+    for row in rows:
+        fault, alt, safe = row["fault"], row["alt"], row["safe"]
+        crossed = before == 0 < alt  # it is never below
+        before = alt
+        ticks += 1
+        if not state or (state in ("Low", "High") and safe and fault > 8):
+            state, mode, armed = "Pad", 0, 0
+        elif state == "Pad":
+            if row["go"]:
+                state, monitor, mode, armed, held = "Low", "Ok", 1, 1, 0
+        elif state == "Tower" or state == "Coast":
+            if safe and (state == "Tower" or alt < 50):
+                state, mode, armed = "Pad", 0, 0
+        else:
+            abort = False
+            if monitor == "Ok":
+                if fault <= 0:
+                    held = 0
+                if held >= 2:
+                    monitor, ticks = "Bad", 0
+            elif fault == 0:
+                monitor, held = "Ok", 0
+            elif ticks >= 3:
+                abort = True
+            if abort and state == "Low" and alt > 100 and not crossed:  # tried before the one on ABORT
+                state, mode, ticks = "High", 2, 0
+            elif abort and state == "High" and alt > 200:
+                state, mode = "Coast", 4
+            elif abort:
+                state, mode, armed = "Tower", 3, 0
+            elif state == "Low" and alt > 100 and not crossed:
+                state, mode = "High", 2
+        held = held + 1 if fault > 0 else 0
+        yield mode, armed
 
 
 APPLIANCES = (
@@ -405,6 +443,10 @@ APPLIANCES = (
     Known(VENDING, {"coin": (0, 1, 2, 3), "choice": (0, 0, 0, 1, 2, 3, 4)}, _vending, 300),
     Known(
         ELEVATOR, {**{f"calls({k})": (0, 0, 0, 0, 1) for k in range(1, 5)}, "closed": (0, 1)}, _elevator, 300
+    ),
+    Known(
+        ABORT, {"go": (0, 1, 1), "fault": (0, 1, 1, 1, 9), "alt": (0, 10, 150, 250), "safe": (0, 0, 0, 1)},
+        _abort, 400,
     ),
     Known(CHECKSUM, {"byte_": (0, 1, 0x55, 0x80, 0xFF), "valid": (0, 1, 1, 1)}, _checksum, 200),
 )  # fmt: skip

@@ -233,9 +233,57 @@ def _inner(rows: Iterable[Row]) -> Outs:
         yield (log,)
 
 
+BRANCHES = ChartText(
+    "branches",
+    """
+    in u uint8
+    out n int32
+    out last int32
+    function y = odd_even(a)
+        takes a uint8
+        gives y int32
+        local i int32
+        junction head
+        junction body
+        junction odd
+        junction join
+        junction end
+        -> head: {i = 0; y = 0;}
+        head -> body: [i < 12]
+        head -> end
+        body -> odd: [(i + a) %% 3 == 1]/y = y + a;
+        body -> join: {y = y + 1;}
+        odd -> join: [y > 40]{y = y - 40;}
+        odd -> join: {y = y * 2;}
+        join -> end: [y == 9]
+        join -> head: {i++;}
+    -> A
+    state A: du: n = odd_even(u);
+    """,
+)
+
+
+def _branches(rows: Iterable[Row]) -> Outs:
+    first = True
+    for row in rows:
+        u, y, i = int(row["u"]), 0, 0
+        while i < 12 and not first:
+            if (i + u) % 3 == 1:
+                y += u
+                y = y - 40 if y > 40 else y * 2
+            else:
+                y += 1
+            if y == 9:
+                break
+            i += 1
+        first = False
+        yield y, 0
+
+
 SEMANTICS = (
     Known(STOPWATCH, {"START": (0, 0, 0, 1), "LAP": (0, 0, 0, 1), "TIC": (0, 1)}, _stopwatch, 400),
     Known(BACKTRACKING, {"u": (0, 1, 2, 3, -1)}, _backtracking),
     Known(LOOP, {"u": (0, 1, 2, 3, 4, 5)}, _loop),
     Known(INNER, {"u": (0, 1, 2, 3)}, _inner),
+    Known(BRANCHES, {"u": (0, 1, 2, 3, 7, 20)}, _branches, 40),
 )
