@@ -107,7 +107,7 @@ def test_blocks_that_feed_each_other_without_a_delay_are_refused(tmp_path: Path)
 
 
 def test_what_feeds_each_other_only_through_a_group_is_no_loop(tmp_path: Path) -> None:
-    """A subsystem that is not atomic is lines around its blocks, each of which has its own place in the order."""
+    """A subsystem that is not atomic only groups its blocks, each of which has its own place in the order."""
     model = WrittenModel("one")
     [a], [y] = ports(model.root, {"a": "double"})
     group, inside = model.root.subsystem("Group", 2, 2)

@@ -65,6 +65,16 @@ class ActiveStateWriter(ChartDataWriter):
         """The event that is answered now; empty in a plain step."""
         return self._stack[-1][1] if self._stack else ""
 
+    @property
+    def _is_nested(self) -> bool:
+        """Whether an event is answered that an action sent."""
+        return sum(ssid <= 0 for ssid, _ in self._stack) > 1
+
+    def _is_event(self, name: str, scope: TextScope) -> bool:
+        if scope.function and f"{scope.function}:{name}" in self.writer.locals:
+            return False
+        return any(name in node.events for node in self.chart.root.every())
+
     def active(self, node: StateNode) -> Expr:
         """Whether a state is active at this point."""
         parent = node.parent

@@ -255,11 +255,6 @@ class ChartWriter(TransitionWriter):
             self.writer.end(scope.left, folded(~scope.alive()))
         return True
 
-    def _is_event(self, name: str, scope: TextScope) -> bool:
-        if scope.function and f"{scope.function}:{name}" in self.writer.locals:
-            return False
-        return any(name in node.events for node in self.chart.root.every())
-
     def _call_out(self, name: str) -> None:
         """Execute what a function call calls, here and now."""
         if self.called is None:
