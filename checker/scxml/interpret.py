@@ -200,7 +200,8 @@ class MachineRunner:
             for target in self._effective(one):
                 entry.add_ancestors(target, domain)
         for state in sorted(entry.states, key=lambda one: one.number):
-            self.active.append(state)
+            if state not in self.active:  # a history may enter what was not left
+                self.active.append(state)
             self._handlers(state.on_entry)
             if state in entry.by_default and state.initial is not None:
                 self._run(state.initial.actions)
@@ -225,7 +226,10 @@ class MachineRunner:
         return state.kind == "parallel" and all(self._is_final(one) for one in state.children)
 
     def _exit_interpreter(self) -> None:
-        """The machine has ended: everything is left, and what was active stays to be seen."""
+        """The machine has ended: everything is left, and what was active stays to be seen.
+
+        Only a final state of the machine is active then, so that nothing sees whether it is removed.
+        """
         for state in sorted(self.active, key=lambda one: -one.number):
             self._handlers(state.on_exit)
         self._internal, self._external, self._waiting = [], [], {}

@@ -299,7 +299,8 @@ class MachineWriter(FormulaWriter):
             self.writer.choose(when, partial(self._plan, plan))
 
     def _plan(self, plan: EntryPlan) -> None:
-        pairs = ((self.entered, plan.states), (self.defaults, plan.defaults), (self.begins, plan.begun))
+        begun = set(plan.begun.values())
+        pairs = ((self.entered, plan.states), (self.defaults, plan.defaults), (self.begins, begun))
         for flags, states in pairs:
             for state in sorted(states, key=lambda one: one.number):
                 self.writer.assign(flags[state], TRUE)

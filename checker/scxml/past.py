@@ -19,11 +19,11 @@ Found = TypeVar("Found")
 
 @dataclass
 class EntryPlan:
-    """What is entered: the states, those entered by default, and the histories without a past."""
+    """What is entered: states, those entered by default, and by parent the last history without a past."""
 
     states: set[MachineState] = field(default_factory=set)
     defaults: set[MachineState] = field(default_factory=set)
-    begun: set[MachineState] = field(default_factory=set)
+    begun: dict[MachineState, MachineState] = field(default_factory=dict)
 
 
 class _Asked(Exception):
@@ -80,7 +80,7 @@ def _down(plan: EntryPlan, state: MachineState, known: Known) -> None:
         assert state.parent is not None and state.initial is not None
         past = _past(state, known)
         if past is None:
-            plan.begun.add(state)
+            plan.begun[state.parent] = state
         _each(plan, state.initial.targets if past is None else past, state.parent, known)
         return
     plan.states.add(state)
