@@ -15,8 +15,8 @@ from rovercheck.checker.scxml.reader import read_scxml
 from rovercheck.checker.scxml.records import StateMachine
 from rovercheck.checker.scxml.system import LoweredMachine, lowered_machine
 from rovercheck.checker.scxml.xstate.bindings import bindings_path
-from rovercheck.checker.scxml.xstate.interpret import XstateRunner
 from rovercheck.checker.scxml.xstate.reader import read_xstate
+from rovercheck.checker.scxml.xstate.runner import runner_of
 from rovercheck.spec_model.lang.domain import Domain, Num
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -160,8 +160,7 @@ def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bo
     for run in range(RUNS):
         if run and monotonic() > end:
             break
-        runner = XstateRunner if lowered.machine.rules == "xstate" else MachineRunner
-        direct, system = runner(lowered.machine), Interpreter(lowered.system)
+        direct, system = runner_of(lowered.machine), Interpreter(lowered.system)
         for tick in range(1, STEPS + 1):
             guards = {one: random.random() < 0.5 for one in lowered.guards}
             found = _step(lowered, direct, system, random.choice(events), guards)

@@ -185,6 +185,8 @@ class StateMachine:
     tick: int
     """Milliseconds of a step in which time passes: all delays are multiples of it; 0 without delays."""
     rules: Rules = "scxml"
+    version: int = 5
+    """Of XState."""
     done: str = "done.state."
     """What events of states that are done begin with."""
     guards: tuple[str, ...] = ()

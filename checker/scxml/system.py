@@ -15,13 +15,14 @@ from rovercheck.checker.scxml.records import (
 )
 from rovercheck.checker.scxml.view import NONE, MachineView
 from rovercheck.checker.scxml.xstate.lower import XstateWriter
+from rovercheck.checker.scxml.xstate.lower_4 import Xstate4Writer
 from rovercheck.spec_model.lang.domain import Domain, boolean, chosen, enumeration
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.programmed import StepProgram
 from rovercheck.spec_model.lang.system import System, in_order
 
-_WRITERS = {"scxml": MachineWriter, "xstate": XstateWriter}
+_WRITERS = {("scxml", 5): MachineWriter, ("xstate", 5): XstateWriter, ("xstate", 4): Xstate4Writer}
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def lowered_machine(machine: StateMachine, file: str, domains: Mapping[str, Doma
     data = {name: _datum(machine, name, first, domains) for name, first in machine.data.items()}
     view, writer = MachineView(machine, file), ProgramWriter(machine.name)
     event = Var("event", enumeration("Event", [NONE, *machine.offered]), 0, "the event of a step, or none")
-    written = _WRITERS[machine.rules](machine, view, data, writer)
+    written = _WRITERS[machine.rules, machine.version](machine, view, data, writer)
     try:
         statements = written.step(event)
     except TooManyStatements as error:

@@ -12,6 +12,7 @@ from rovercheck.checker.scxml.system import LoweredMachine, lowered_machine
 from rovercheck.checker.scxml.xstate.bindings import Bindings
 from rovercheck.checker.scxml.xstate.interpret import XstateRunner
 from rovercheck.checker.scxml.xstate.reader import xstate_machine_of
+from rovercheck.checker.scxml.xstate.runner import runner_of
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -43,13 +44,13 @@ class _Writer:
         if path and (depth == 3 or r < 0.55):
             self.kinds[path] = "atomic"
             return {}
-        parallel = bool(path) and r > 0.8
+        parallel = bool(path) and r > (0.8 if self.version == 5 else 0.92)
         self.kinds[path] = "parallel" if parallel else "compound"
         names = [f"s{len(self.paths) + number}" for number in range(self.random.choice((2, 2, 3)))]
         self.paths += [(*path, one) for one in names]
         made: dict[str, Any] = {"type": "parallel"} if parallel else {"initial": self.random.choice(names)}
         made["states"] = {one: self.shape((*path, one), depth + 1) for one in names}
-        if path and self.random.random() < 0.35:
+        if path and self.random.random() < 0.35 and self.version == 5:
             name = f"h{len(self.paths)}"
             self.paths.append((*path, name))
             self.kinds[*path, name] = "history"
@@ -147,7 +148,8 @@ def xstate_runs(
 
     Without ``at_once`` also up to one in which several delays are over, which has another order in XState.
     """
-    runner = XstateRunner(machine)
+    runner = runner_of(machine)
+    assert isinstance(runner, XstateRunner)
     for event, guards in steps:
         try:
             runner.step(event, guards)

@@ -89,13 +89,15 @@ class XstateRunner(MachineRunner):
                 found.append(one)
         return self._without_conflicts(found)
 
-    def _below(self, state: MachineState, event: str) -> list[MachineTransition]:
+    def _below(self, state: MachineState, event: str | None) -> list[MachineTransition]:
         """What the active states in a state choose; it chooses only if they do not."""
         found = [one for child in state.children if child in self.active for one in self._below(child, event)]
         if found:
             return found
         for one in state.transitions:
-            asked = any(self._asks(word, event) for word in one.events)
+            asked = not one.events
+            if event is not None:
+                asked = any(self._asks(word, event) for word in one.events)
             if asked and (one.condition is None or self._value(one.condition)):
                 return [one]
         return []
@@ -133,7 +135,7 @@ class XstateRunner(MachineRunner):
                 assert domain is not None
                 entry.up(state, domain, domain)
         completed: list[MachineState] = []
-        for state in sorted(entry.states, key=lambda one: one.number):
+        for state in sorted(self._entered(entry.states), key=lambda one: one.number):
             if state not in self.active:
                 self.active.append(state)
             self._handlers(state.on_entry)
@@ -141,6 +143,10 @@ class XstateRunner(MachineRunner):
                 self._run(state.initial.actions)
             if state.kind == "final":
                 self._complete(state, completed)
+
+    def _entered(self, states: Sequence[MachineState]) -> Sequence[MachineState]:
+        """Of some states those that are entered: in version 5 also those that are active."""
+        return states
 
     def _complete(self, final: MachineState, completed: list[MachineState]) -> None:
         parent = final.parent

@@ -83,9 +83,13 @@ class XstateWriter(MachineWriter):
             self._take_event()
         writer.choose(any_of(FALSE, *self.kept.values()), self._microstep)
         if self.eventless:
-            again = partial(writer.assign, self.may, any_of(self.changed, self.moved))
+            again = partial(writer.assign, self.may, self._again())
             writer.choose(self.quiet, again)
         writer.choose(self.ended, partial(writer.assign, self.go, FALSE))
+
+    def _again(self) -> Expr:
+        """Whether eventless transitions are asked again after one of them."""
+        return any_of(self.changed, self.moved)
 
     def _take_event(self) -> None:
         chosen = self._take_due(list(self.machine.sends))
@@ -136,7 +140,7 @@ class XstateWriter(MachineWriter):
         return descriptor in ("*", event)
 
     def _select(self, wanted: Sequence[MachineTransition]) -> None:
-        if not wanted or not wanted[0].events:
+        if not wanted or not self._hierarchical(wanted):
             super()._select(wanted)
             return
         writer = self.writer
@@ -153,6 +157,10 @@ class XstateWriter(MachineWriter):
             writer.assign(self.picks[state], any_of(below, *(enabled[one] for one in own)))
         for one in wanted:
             self._insert(one, self.picked[one], wanted)
+
+    def _hierarchical(self, wanted: Sequence[MachineTransition]) -> bool:
+        """Whether what is around a state with a transition is not asked."""
+        return bool(wanted[0].events)
 
     def _clash(self, one: MachineTransition, other: MachineTransition) -> Expr:
         """Whether two transitions leave the same state: something is in both domains."""

@@ -11,6 +11,7 @@ from rovercheck.checker.scxml.records import OTHER, MachineState, StateKind, Sta
 from rovercheck.checker.scxml.xstate.bindings import Bindings, bindings_path, read_bindings
 from rovercheck.checker.scxml.xstate.content import XstateContent, shown_value
 from rovercheck.checker.scxml.xstate.targets import TransitionReader, in_order_of_javascript
+from rovercheck.checker.scxml.xstate.version_4 import check_version_4
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
 
 LARGEST = 16 << 20
@@ -103,7 +104,10 @@ class _Reader:
             self._fill(reader, state, element)
         content.stop()
         content.check_used()
-        reader.check()
+        if content.version == 5:
+            reader.check()
+        else:
+            check_version_4(content, self.states)
         content.stop()
         return self._made(name)
 
@@ -116,11 +120,11 @@ class _Reader:
         offered = {_offered(one) for one in waited} - own
         offered = {one for one in offered if not one.startswith(("xstate.", "done.", "error."))}
         eventless = any(not t.events for one in self.states for t in one.transitions)
-        internal = sorted(own if eventless else _answered(own, waited))
+        internal = sorted(own if eventless and content.version == 5 else _answered(own, waited))
         made = re.sub(r"\W+", "_", name).strip("_") or "Machine"
         return StateMachine(
             made, self.pseudo, tuple(self.states), content.data, tuple(content.sends), tuple(sorted(offered)),
-            tuple(internal), gcd(*(one.delay for one in content.sends)), "xstate", done,
+            tuple(internal), gcd(*(one.delay for one in content.sends)), "xstate", content.version, done,
             tuple(content.free_guards), tuple(content.free_actions), f"XState {content.version}",
             tuple(content.notes()),
         )  # fmt: skip

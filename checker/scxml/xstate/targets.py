@@ -47,6 +47,8 @@ class TransitionReader:
     def initial(self, state: MachineState, value: JsonValue | None) -> MachineTransition:
         """Where a compound state begins."""
         inner = (value.object or {}) if value is not None else {}
+        if inner and self.content.version == 4:
+            self.content.fault(_at(state.line), f"an `initial` of {state.id} with actions, of XState 5")
         name = inner.get("target", value) if inner else value
         if name is not None and name.list is not None and len(name.list) == 1:
             name = name.list[0]
@@ -101,7 +103,8 @@ class TransitionReader:
             if sent is not None:
                 sends.append(sent)
                 found.append((sent.event, value))
-        found.sort(key=lambda one: (_wild(one[0]), -len(one[0]) if _wild(one[0]) else 0))
+        late = {one.event for one in sends} if self.content.version == 4 else set()  # after `*` there
+        found.sort(key=lambda one: (one[0] in late, _wild(one[0]), -len(one[0]) if _wild(one[0]) else 0))
         state.transitions = eventless
         for descriptor, value in found:
             state.transitions += self._each(descriptor, value, state)
