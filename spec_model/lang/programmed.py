@@ -60,7 +60,8 @@ def is_fault(var: Var) -> bool:
 class ProgrammedChart(Chart):
     """A chart with the program of its step.  Its labels are texts, as the file has them.
 
-    ``final`` are the states in which it is meant to stay.
+    ``final`` are the states in which it is meant to stay; with ``waits`` time passes only in steps without
+    an event.
     """
 
     def __init__(
@@ -77,15 +78,16 @@ class ProgrammedChart(Chart):
         text: str = "",
         place: Place | None = None,
         final: Collection[Path] = (),
+        waits: bool = False,
     ) -> None:
         self.name, self.text, self.local_to, self.data, self.label_faults = name, text, (), (), ()
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place
         )  # fmt: skip
         self.program, self._inner, self._figure = program, inner or {}, figure
-        self.final = tuple(final)
+        self.final, self.waits = tuple(final), waits
 
-    _written = (*Chart._written, "program", "_inner", "_figure", "final")
+    _written = (*Chart._written, "program", "_inner", "_figure", "final", "waits")
 
     @property
     def figure(self) -> ChartFigure | None:
@@ -103,7 +105,7 @@ class ProgrammedChart(Chart):
         return ProgrammedChart(
             self.name, root.states, program, default=root.default, junctions=root.junctions,
             parallel=root.parallel, inner=self._inner, figure=self._figure, text=self.text, place=root.place,
-            final=self.final,
+            final=self.final, waits=self.waits,
         )  # fmt: skip
 
     def with_root(self, root: State) -> Chart:
