@@ -1,4 +1,4 @@
-"""The verb ``import``: what is drawn in a file of Simulink."""
+"""The verb ``import``: what is drawn in a file of Simulink, or stands in a machine of SCXML or XState."""
 
 from pathlib import Path
 
@@ -14,6 +14,7 @@ Examples:
   rovercheck import supervisor.slx --propose-domains
   rovercheck import supervisor.slx --json
   rovercheck import door.scxml
+  rovercheck import machine.json
 """
 
 FILE = click.Path(path_type=Path)
@@ -55,10 +56,12 @@ def import_(
 
     Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
-    if model.suffix == ".scxml":  # what reads either is loaded only then
-        from rovercheck.checker.commands.import_.machine import import_machine
+    if model.suffix in (".scxml", ".json"):  # what reads either is loaded only then
+        from rovercheck.checker.commands.import_.machine import import_machine, propose_ranges
 
-        return import_machine(model, bool(beside or log or propose or as_json or strict))
+        if propose:
+            return propose_ranges(model, force)
+        return import_machine(model, bool(beside or log or strict), as_json=as_json)
     from rovercheck.checker.commands.import_.propose import propose_domains
     from rovercheck.checker.commands.import_.run import import_model
 
