@@ -68,7 +68,7 @@ class SystemWriter(ChartBlockWriter):
 
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         block, context = node.block, self.context
-        inner = SystemWriter(system, context, f"{self._path}_{block.name}".strip("_"))
+        inner = type(self)(system, context, f"{self._path}_{block.name}".strip("_"))
         components, ends = inner.lowered(self._values(node))
         if not node.control:
             node.outputs = list(ends)

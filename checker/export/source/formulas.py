@@ -1,0 +1,195 @@
+"""Formulas and actions as they are written in Python, and which words they take."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from rovercheck.checker.export.source.layout import Call, Keyword, Source, call, listed, quoted
+from rovercheck.spec_model.lang.action import Action, Assign, If, Send
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.operators import COMPARISONS, SIGNS, Op
+from rovercheck.spec_model.lang.time import Span
+from rovercheck.spec_model.lang.walk import plain, structure
+
+LONGEST = 60
+"""Letters of a conjunction that is written with signs between its parts."""
+_COMPARED, _OR, _AND, _SUM, _PRODUCT, _SIGN, _ATOM = range(7)
+"""How tightly Python binds, loosest first."""
+
+
+@dataclass
+class FormulaSource:
+    """Writes formulas.
+
+    ``names`` are those of variables, ``formulas`` of named formulas by name and structure, ``members`` of
+    enumerations.  ``used`` are the words of rovercheck that were written.
+    """
+
+    names: Mapping[str, str]
+    formulas: Mapping[object, str]
+    members: Mapping[Enum, str]
+    used: set[str] = field(default_factory=set)
+
+    def word(self, name: str) -> str:
+        """A word of rovercheck, which the module then imports."""
+        self.used.add(name)
+        return name
+
+    def formula(self, expr: Expr) -> Source:
+        """A formula; long conditions are written with ``all_of`` and ``any_of``."""
+        match expr:
+            case Const():
+                return self._constant(expr)
+            case Apply(Op.AND | Op.OR as op, args) if len(self.text(expr)) > LONGEST:
+                return call(self.word("all_of" if op is Op.AND else "any_of"), *map(self.formula, args))
+            case Apply(Op.ITE, args) if len(self.text(expr)) > LONGEST:
+                return call(self.word("ite"), *map(self.formula, args[:1]), *self._branches(args[1:]))
+            case Apply(Op.MIN | Op.MAX as op, args) if len(self.text(expr)) > LONGEST:
+                word = self.word("minimum" if op is Op.MIN else "maximum")
+                return call(word, *(self._plain(one) for one in args))
+        return self.text(expr)
+
+    def _plain(self, expr: Expr) -> Source:
+        return self._value(expr) if isinstance(expr, Const) else self.formula(expr)
+
+    def text(self, expr: Expr, above: int = _COMPARED) -> str:
+        """The same in one line, in parentheses where what is around it binds as tightly."""
+        match expr:
+            case Const():
+                return self._constant(expr)
+            case Var(name):
+                return self.names[name]
+            case Named(name, body):
+                known = self.formulas.get((name, structure(body)))
+                return self.text(body, above) if known is None else known
+            case Temporal():
+                return self._temporal(expr, above)
+            case Apply(op, args, _):
+                return self._applied(op, args, above)
+        raise AssertionError(expr.__class__)
+
+    def _constant(self, expr: Const) -> str:
+        """A constant that stands alone, where Python has to know that it is a formula."""
+        match expr.sort:
+            case Bool():
+                return self.word("TRUE" if expr.value else "FALSE")
+            case Enum() as enum:
+                return f"{self.word('member')}({self.members[enum]}, {quoted(enum.member(expr.value))})"
+        return f"{self.word('const')}({self._value(expr)})"
+
+    def _value(self, expr: Const) -> str:
+        """A constant beside a formula."""
+        match expr.sort:
+            case Bool():
+                return "True" if expr.value else "False"
+            case Enum() as enum:
+                return quoted(enum.member(expr.value))
+            case Num(resolution, _):
+                return _number(expr.value * resolution)
+
+    def _beside(self, expr: Expr, other: Expr, above: int) -> str:
+        if isinstance(plain(expr), Const) and isinstance(plain(other), Const):
+            return self.text(expr, above)
+        if not isinstance(expr, Const):
+            return self.text(expr, above)
+        shown = self._value(expr)
+        return f"({shown})" if shown.startswith("-") and above > _SUM else shown
+
+    def _applied(self, op: Op, args: Sequence[Expr], above: int) -> str:
+        if op is Op.SCALE:
+            return self.text(args[0], above)
+        if op is Op.NOT:
+            return _within(f"~{self.text(args[0], _ATOM)}", _SIGN, above)
+        if op is Op.NEG:
+            return _within(f"-{self.text(args[0], _ATOM)}", _SIGN, above)
+        if op in (Op.AND, Op.OR):
+            level, sign = (_AND, " & ") if op is Op.AND else (_OR, " | ")
+            return _within(sign.join(self.text(one, level + 1) for one in args), level, above)
+        if op in COMPARISONS or op in SIGNS:
+            level = _COMPARED if op in COMPARISONS else _PRODUCT if op is Op.MUL else _SUM
+            one, other = args
+            left = self._beside(one, other, level + (op in COMPARISONS))
+            right = self._beside(other, one, level + 1)
+            return _within(f"{left} {SIGNS[op]} {right}", level, above)
+        if op is Op.ITE:
+            branches = ", ".join(map(str, self._branches(args[1:])))
+            return f"{self.word('ite')}({self.text(args[0])}, {branches})"
+        return self._called(op, args)
+
+    def _branches(self, args: Sequence[Expr]) -> list[str]:
+        """Both values of a choice; of two members the first must say its enumeration."""
+        one, other = args
+        if isinstance(one, Const) and isinstance(other, Const) and not isinstance(one.sort, Num):
+            return [self.text(one), self._value(other)]
+        return [self._value(arg) if isinstance(arg, Const) else self.text(arg) for arg in args]
+
+    def _called(self, op: Op, args: Sequence[Expr]) -> str:
+        word = self.word(CALLS[op])
+        if op is Op.DIV and isinstance(args[0].sort, Num) and args[0].sort.resolution != 1:
+            raise ModelError(
+                f"`{Apply(op, tuple(args), Num())}` rounds a fraction, for which there is no word in a chart: "
+                "round it in a function block outside, or give its data a resolution that needs none"
+            )
+        if op is Op.ABS:
+            return f"{word}({self.text(args[0])})"
+        first = self._beside(args[0], args[1], _COMPARED)
+        return f"{word}({first}, {self._beside(args[1], args[0], _COMPARED)})"
+
+    def _temporal(self, word: Temporal, above: int) -> str:
+        span = "" if word.span is None else self.span(word.span)
+        arg = "" if word.arg is None else self.text(word.arg)
+        match word.when:
+            case When.AFTER:
+                return f"{self.word('after')}({span})"
+            case When.DURATION:
+                shown = f"{self.word('duration')}({arg}) {'>' if word.strict else '>='} {span}"
+                return f"({shown})" if above else shown
+            case When.HELD:
+                return f"{self.word('held')}({arg}, {span})"
+        return f"{self.word(word.when.value)}({arg})"
+
+    def span(self, span: Span) -> str:
+        """``3 * sec``, ``20 * ms``, ``2 * ticks``."""
+        if span.unit == "ticks":
+            return f"{_number(span.amount)} * {self.word('ticks')}"
+        if span.amount % 1000 == 0:
+            return f"{_number(span.amount / 1000)} * {self.word('sec')}"
+        return f"{_number(span.amount)} * {self.word('ms')}"
+
+    # --- actions -------------------------------------------------------------------------------------------
+
+    def actions(self, actions: Sequence[Action]) -> Call:
+        """A list of actions."""
+        return listed([self._action(one) for one in actions])
+
+    def _action(self, action: Action) -> Source:
+        match action:
+            case Assign(var, Const() as value):
+                return call(self.word("assign"), self.names[var.name], self._value(value))
+            case Assign(var, value):
+                return call(self.word("assign"), self.names[var.name], self.formula(value))
+            case If(condition, then, otherwise):
+                more = [Keyword("otherwise", self.actions(otherwise))] if otherwise else []
+                return call(self.word("when"), self.formula(condition), self.actions(then), *more)
+            case Send(event, receiver):
+                return call(self.word("send"), quoted(event), quoted(receiver))
+
+
+CALLS: Mapping[Op, str] = {
+    Op.ABS: "absolute", Op.MIN: "minimum", Op.MAX: "maximum", Op.DIV: "quotient", Op.MOD: "modulo", Op.BIT: "bit",
+}  # fmt: skip
+
+
+def _within(shown: str, level: int, above: int) -> str:
+    return f"({shown})" if above > level else shown
+
+
+def _number(value: Fraction) -> str:
+    """A number as Python has it; a fraction that no decimal is, as a text."""
+    shown = show(value)
+    return quoted(shown) if "/" in shown else shown
+
+
+__all__ = ["FormulaSource"]
