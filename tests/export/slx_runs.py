@@ -1,18 +1,26 @@
 """A random system of charts, and the model of Simulink that is written of it, run beside each other."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
+from rovercheck.checker.commands.import_.written import written_model
+from rovercheck.checker.drawn.charts.system import charts_of_model
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
+from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.export.slx import simulink_of
+from rovercheck.checker.model.load import load
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart, Component
 from rovercheck.spec_model.lang.chart import Path as Path_
 from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.interpret import Interpreter
@@ -58,17 +66,19 @@ def random_system(seed: int) -> System:
     return in_order("Random", *made, frozen=FROZEN)
 
 
-def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> int:
+def differences(system: System, folder: Path, seed: int, rows: int = ROWS, written: bool = False) -> int:
     """Run the system and what is read of its file, in both readings; the answer is how many rows were alike.
 
-    Raises ``AssertionError`` where they differ, ``ModelError`` for a system that is refused.
+    ``written``: what is read is written as charts in Python and loaded, too.  Raises ``AssertionError`` where they differ, ``ModelError`` for a system that is refused.
     """
     made = simulink_of(system)
     path = folder / "random.slx"
     made.save(path)
     model, said = read_model(path), read_domains(domains_path(path))
     lowered = lowered_model(model, path.name, said.domains)
-    runs = LoweredRun(lowered), ModelRunner(model)
+    runs = [LoweredRun(lowered), ModelRunner(model)]
+    if written:
+        runs.append(LoweredRun(written_again(lowered, path)))
     random = Random(seed)
     frozen = {v.name: random.choice(list(v.domain.values)) for v in system.frozen}
     own = Interpreter(system, frozen)
@@ -99,6 +109,19 @@ def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> in
         wrong = [n for n, on in places.items() if on != (n in active)]
         assert not wrong, f"seed {seed}, row {row}: {wrong}, active {active}"
     return rows
+
+
+def written_again(lowered: LoweredModel, path: Path) -> LoweredModel:
+    """A model as it is loaded from the charts in Python that are written of it."""
+    try:
+        drawn = charts_of_model(lowered, path.name)
+    except NotLowered as error:
+        raise ModelError(str(error)) from error
+    with TemporaryDirectory(dir=path.parent) as folder:
+        for name, text in written_model(path, drawn).files.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        system = load(Path(folder)).systems[drawn.model.system.name]
+    return replace(drawn.model, system=system)
 
 
 def _holds(chart: Chart, path: Path_, at: Mapping[str, int]) -> int:

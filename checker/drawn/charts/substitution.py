@@ -70,7 +70,7 @@ class _Substitution:
                 return Const(expr.init, expr.sort) if found is None else found
             case Named(name, body):
                 made = self.formula(body)
-                return expr if made is body else made
+                return expr if made is body else Named(name, made)
             case Temporal(when, arg, span, strict) if arg is not None:
                 return Temporal(when, self.formula(arg), span, strict)
             case Apply(op, args, sort):

@@ -10,10 +10,11 @@ from rovercheck.checker.drawn.charts.tidy import tidied, tidied_actions
 from rovercheck.checker.drawn.charts.words import EDGES, SpanWords, changed
 from rovercheck.checker.drawn.grammar.actions import ActionStatement
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperation, Expression, Member, Name
+from rovercheck.checker.drawn.grammar.text import text_of
 from rovercheck.checker.drawn.lower.conversions import as_number
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.machine import ChartWriter
-from rovercheck.checker.drawn.lower.names import TextScope, datum_in, state_in, words
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in, state_in, words
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
     NotLowered,
@@ -31,9 +32,9 @@ from rovercheck.checker.drawn.records import DrawnData
 from rovercheck.spec_model.lang.action import Action, Assign, If, Send, expressions
 from rovercheck.spec_model.lang.chart import Chart, State
 from rovercheck.spec_model.lang.domain import boolean
-from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When
 from rovercheck.spec_model.lang.system import Statement
-from rovercheck.spec_model.lang.walk import nodes, plain
+from rovercheck.spec_model.lang.walk import nodes, plain, structure
 
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
@@ -55,6 +56,7 @@ class ChartTexts(ChartWriter):
         self._spans = SpanWords(length)
         self._plain = states_only(chart, view)
         self._sent: dict[str, Send] = {}
+        self._calls: dict[str, object] = {}
         self._own = dict(writer.temporaries)
         self.kept_variables: dict[str, Var] = {}
         self.event = ""
@@ -65,7 +67,9 @@ class ChartTexts(ChartWriter):
         """A condition that is tested on a way from a state.  Raises ``NotLowered``."""
         self._begin()
         made = self.condition(expression, self._at(node))
-        return tidied(condition_after(self.writer.written(made), made, self.writer.temporaries))
+        return self._named_once(
+            tidied(condition_after(self.writer.written(made), made, self.writer.temporaries))
+        )
 
     def word_of(self, expression: Expression, node: StateNode) -> Expr:
         """A time that stands where an event may.  Raises ``NotLowered``."""
@@ -89,7 +93,7 @@ class ChartTexts(ChartWriter):
         self.kept_variables |= {
             name: var for name, var in self.writer.temporaries.items() if name in _named(made)
         }
-        return tidied_actions(tuple(self._with_sends(made)))
+        return tuple(map(self._calls_once, tidied_actions(tuple(self._with_sends(made)))))
 
     def flow(self, node: StateNode) -> tuple[Action, ...]:
         """The flow chart in a state, whose transitions only act.  Raises ``NotLowered``."""
@@ -131,6 +135,31 @@ class ChartTexts(ChartWriter):
             return made
         return SymbolicScalar(made.kind, Named(self._name_of(one, node), made.expr))
 
+    def _calls_once(self, action: Action) -> Action:
+        match action:
+            case Assign(var, value):
+                return Assign(var, self._named_once(value))
+            case If(condition, then, otherwise):
+                some = (tuple(map(self._calls_once, part)) for part in (then, otherwise))
+                return If(self._named_once(condition), *some)
+        return action
+
+    def _named_once(self, expr: Expr) -> Expr:
+        """The formula without names that stand for another formula elsewhere in the chart."""
+        match expr:
+            case Named(name, body):
+                inner = self._named_once(body)
+                if self._calls.setdefault(name, structure(inner)) != structure(inner):
+                    return inner
+                return expr if inner is body else Named(name, inner)
+            case Temporal(when, arg, span, strict) if arg is not None:
+                return Temporal(when, self._named_once(arg), span, strict)
+            case Apply(op, args, sort):
+                made = tuple(map(self._named_once, args))
+                same = all(one is other for one, other in zip(made, args, strict=True))
+                return expr if same else Apply(op, made, sort)
+        return expr
+
     def _begin(self) -> None:
         """A new text: of data nothing is known at its start."""
         self.writer = self.writer.fresh(self._own)
@@ -166,6 +195,21 @@ class ChartTexts(ChartWriter):
                 if found is not None:
                     return truth(found)
         return super().value(expression, scope)
+
+    def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
+        """All values of a call; what a function of the chart gives has the call as its name."""
+        found = super().several(expression, scope)
+        match expression:
+            case Applied(Name(name)) if len(found) == 1 and self._is_called(name, scope):
+                [value] = found
+                if isinstance(value, SymbolicScalar) and not isinstance(value.expr, Const):
+                    shown = text_of(expression, self.chart.language)
+                    return [SymbolicScalar(value.kind, Named(shown, value.expr))]
+        return found
+
+    def _is_called(self, name: str, scope: TextScope) -> bool:
+        """Whether a name is that of a function of the chart, called outside of functions."""
+        return not scope.function and not self.is_datum(name, scope) and function_in(scope.node, name) is not None
 
     def _counted(self, count: Expression, limit: Expression, sign: str, scope: TextScope) -> Expr | None:
         match count:

@@ -1,6 +1,6 @@
 """A system as a module of Python: its domains, data and charts, in the order of execution."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -28,13 +28,16 @@ TYPES: Mapping[str, tuple[int, int]] = {
 
 @dataclass(frozen=True)
 class SourceModule:
-    """A module: its text, and the names that it gives to the system, to charts and to variables."""
+    """A module: its text, and the names that it gives to the system, to charts, variables and formulas.
+
+    Formulas are known by their own names and their structure.
+    """
 
     text: str
     system: str
     charts: Mapping[str, str]
     variables: Mapping[str, str]
-    formula: Callable[[Expr], str]
+    formulas: Mapping[object, str]
 
 
 def module_of(system: System, labels: Mapping[str, ChartLabels], title: str) -> SourceModule:
@@ -57,7 +60,7 @@ class _Module:
             key: (self._names.variable(one.name), one) for key, one in self._named_formulas().items()
         }
         self._charts = {one.name: self._names.thing(one.name) for one in parts(system.components)}
-        self._own = self._names.thing(system.name)
+        self._own = self._names.thing(system.name, "system")
         self._domains: dict[Domain, str] = {}
         self._members: dict[Enum, str] = {}
         self._source = FormulaSource(
@@ -79,9 +82,15 @@ class _Module:
     def _named_formulas(self) -> dict[object, Named]:
         """Named formulas, those inside others first."""
         found: dict[object, Named] = {}
-        for node in reversed(list(nodes(*self._expressions()))):
-            if isinstance(node, Named):
-                found.setdefault((node.name, structure(node.body)), node)
+        waiting: list[tuple[Expr, bool]] = [(one, False) for one in self._expressions()]
+        seen = set[int]()
+        while waiting:
+            one, below_done = waiting.pop()
+            if below_done and isinstance(one, Named):
+                found.setdefault((one.name, structure(one.body)), one)
+            elif not below_done and id(one) not in seen:
+                seen.add(id(one))
+                waiting += [(one, True), *((part, False) for part in children(one))]
         return found
 
     def written(self) -> SourceModule:
@@ -94,7 +103,7 @@ class _Module:
         head = [f'"""{_docstring(self._title)}"""', "", *self._imports(), ""]
         return SourceModule(
             "\n".join([*head, *body]).rstrip() + "\n", self._own, self._charts, self._source.names,
-            lambda expr: str(self._source.text(expr)),
+            self._source.formulas,
         )  # fmt: skip
 
     def _imports(self) -> Iterator[str]:

@@ -24,9 +24,10 @@ class SourceNames:
         """``LampColour`` is ``LAMP_COLOUR``."""
         return self._free(_ODD.sub("_", _HUMP.sub("_", name)).strip("_").upper() or "DOMAIN")
 
-    def thing(self, name: str) -> str:
-        """``TopLevel`` is ``top_level``, as charts and systems are named."""
-        return self._free(_ODD.sub("_", _HUMP.sub("_", name)).strip("_").lower() or "chart")
+    def thing(self, name: str, kind: str = "chart") -> str:
+        """``TopLevel`` is ``top_level``, as charts and systems are named; if that is taken, with its kind."""
+        plain = _ODD.sub("_", _HUMP.sub("_", name)).strip("_").lower() or kind
+        return self._free(plain if plain not in self._taken else f"{plain}_{kind}")
 
     def _free(self, name: str) -> str:
         name = f"_{name}" if name[0].isdigit() else name
