@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from rovercheck.checker.drawn.charts.masks import bit_of_sum, mask_terms, masked
 from rovercheck.checker.drawn.lower.symbols import folded
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.domain import Bool, Num, Sort
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num, Sort
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Temporal, all_of, any_of, const
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.walk import plain
@@ -63,9 +63,15 @@ def _joined(expr: Apply) -> Expr:
 
 def _negated(expr: Apply) -> Expr:
     [inner] = expr.args
-    if isinstance(inner, Apply) and inner.op in _OPPOSITE:
+    if isinstance(inner, Apply) and inner.op in _OPPOSITE and not _asks_for_state(inner):
         return Apply(_OPPOSITE[inner.op], inner.args, inner.sort)
     return expr
+
+
+def _asks_for_state(expr: Apply) -> bool:
+    """Whether a comparison asks which state is active, as ``in(...)`` of a label does."""
+    sort = expr.args[0].sort
+    return isinstance(sort, Enum) and (sort.name.startswith("states of ") or sort.name == "Entered")
 
 
 def _choice(expr: Apply) -> Expr:

@@ -47,7 +47,7 @@ class LabelWriter:
 
         def says(label: str) -> bool:
             found = state_of(label, self._names)
-            return _alike((found.entry, found.during, found.exit), wanted)
+            return self._alike((found.entry, found.during, found.exit), wanted)
 
         if not any(wanted):
             return WrittenLabel((), _comment(drawn))
@@ -63,7 +63,7 @@ class LabelWriter:
             return (
                 found.event == one.event
                 and _same(found.guard, one.guard)
-                and _alike((found.do, found.then), (one.do, one.then))
+                and self._alike((found.do, found.then), (one.do, one.then))
             )
 
         if is_silent(one):
@@ -138,6 +138,9 @@ class LabelWriter:
     def _with_places(self, expr: Expr) -> Expr:
         """A formula in which an active state of the chart itself is shown as ``in(STATE)``."""
         match expr:
+            case Apply(Op.EQ, (Var(name), Const(1))) if name == self._chart.entered.name:
+                region = self._chart.root.states[0].name
+                return Named(f"in({self._short((region,))})", expr)
             case Apply(Op.EQ | Op.NE as op, (Var(name), Const(value, _)), sort) if name in self._states:
                 path = (*self._states[name], expr.args[0].sort.member(value))  # type: ignore[union-attr]
                 if path in self._chart.states:
@@ -157,6 +160,22 @@ class LabelWriter:
             if len(ends) == 1:
                 return ".".join(path[start:])
         return ".".join(path)
+
+    def _alike(self, some: Sequence[Sequence[Action]], others: Sequence[Sequence[Action]]) -> bool:
+        return all(
+            len(one) == len(other) and all(map(self._alike_actions, one, other))
+            for one, other in zip(some, others, strict=True)
+        )
+
+    def _alike_actions(self, one: Action, other: Action) -> bool:
+        match one, other:
+            case Assign(var, value), Assign(same, new):
+                return var.name == same.name and _same(value, new)
+            case If(condition, then, otherwise), If(also, do, instead):
+                return _same(condition, also) and self._alike((then, otherwise), (do, instead))
+            case Send(event, receiver), Send(sent, to):
+                return event == sent and self._chart.path(receiver) == self._chart.path(to)
+        return False
 
     def asks_for_states(self, *formulas: Expr) -> bool:
         """Whether some formulas ask for an active state of the chart itself."""
@@ -196,22 +215,6 @@ def _same(one: Expr | None, other: Expr | None) -> bool:
     if one is None or other is None:
         return one is other
     return structure(one) == structure(other)
-
-
-def _alike(some: Sequence[Sequence[Action]], others: Sequence[Sequence[Action]]) -> bool:
-    return all(
-        len(one) == len(other) and all(map(_alike_actions, one, other))
-        for one, other in zip(some, others, strict=True)
-    )
-
-
-def _alike_actions(one: Action, other: Action) -> bool:
-    match one, other:
-        case Assign(var, value), Assign(same, new):
-            return var.name == same.name and _same(value, new)
-        case If(condition, then, otherwise), If(also, do, instead):
-            return _same(condition, also) and _alike((then, otherwise), (do, instead))
-    return one == other
 
 
 __all__ = ["LabelWriter", "WrittenLabel", "is_silent"]
