@@ -69,14 +69,16 @@ def random_system(seed: int) -> System:
 def differences(system: System, folder: Path, seed: int, rows: int = ROWS, written: bool = False) -> int:
     """Run the system and what is read of its file, in both readings; the answer is how many rows were alike.
 
-    ``written``: what is read is written as charts in Python and loaded, too.  Raises ``AssertionError`` where they differ, ``ModelError`` for a system that is refused.
+    ``written``: what is read is written as charts in Python and loaded, too.
+    Raises ``AssertionError`` where they differ, ``ModelError`` for a system that is refused.
     """
     made = simulink_of(system)
     path = folder / "random.slx"
     made.save(path)
     model, said = read_model(path), read_domains(domains_path(path))
     lowered = lowered_model(model, path.name, said.domains)
-    runs = [LoweredRun(lowered), ModelRunner(model)]
+    direct = ModelRunner(model)
+    runs: list[LoweredRun | ModelRunner] = [LoweredRun(lowered), direct]
     if written:
         runs.append(LoweredRun(written_again(lowered, path)))
     random = Random(seed)
@@ -102,7 +104,7 @@ def differences(system: System, folder: Path, seed: int, rows: int = ROWS, writt
             assert not unlike, f"seed {seed}, row {row}, {type(run).__name__}: {given} gives {unlike}"
         active = {
             n.path.split("/", 1)[1].replace("/", ".")
-            for m in runs[1].machines
+            for m in direct.machines
             for n in m.active
             if n.parent is not None
         }

@@ -44,8 +44,8 @@ FILE = click.Path(path_type=Path)
 )  # fmt: skip
 @click.option(
     "--write", "folder", type=FILE, metavar="FOLDER",
-    help="Write the model into a new folder as an ordinary model in Python, which may be read and edited, once "
-    "it is shown to do what is drawn.",
+    help="Write the model into a new folder as an ordinary model in Python, which may be read and "
+    "edited, once it is compared with what is drawn.",
 )  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="All that was read, as JSON.")
 def import_(

@@ -9,7 +9,7 @@ from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.drawn.lower.uses import constants_of
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.two_readings import interesting
-from rovercheck.checker.results.verdict import Proved, Violated
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, StoredInvariant, Violated
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import always
 from rovercheck.spec_model.lang.action import Action, Assign, If
@@ -51,10 +51,10 @@ def equality_of(written: System, drawn: System, seconds: float = SECONDS) -> Equ
     except ModelError as error:
         return Equality(how=str(error).splitlines()[0])
     match found.verdict:
-        case Proved(evidence):
+        case Proved(Exhausted() | Inductive() | StoredInvariant() as evidence):
             return Equality(proved=True, how=evidence.how)
-        case Violated(trace):
-            return Equality(difference=f"in tick {len(trace)} of a run that a search has found")
+        case Violated():
+            return Equality(difference="in a run that a search has found")
     return Equality(how="that it does in every run was not decided in the time for it")
 
 
@@ -89,9 +89,7 @@ def _raw(var: Var, value: float) -> int:
     return round(Fraction(str(value)) / resolution)
 
 
-def _beside(
-    written: System, drawn: TransitionSystem
-) -> tuple[System, Expr, Mapping[str, tuple[Var, Var]]]:
+def _beside(written: System, drawn: TransitionSystem) -> tuple[System, Expr, Mapping[str, tuple[Var, Var]]]:
     """One system that does both, the condition that both have done the same, and what it compares by name."""
     inputs = {one.name for one in drawn.inputs}
     renamed = {one.name: _apart(one) for one in (*drawn.variables, *drawn.temps)}

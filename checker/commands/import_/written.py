@@ -1,4 +1,4 @@
-"""``rovercheck import MODEL.slx --write FOLDER``: the model as charts in Python, compared before they are kept."""
+"""``rovercheck import MODEL.slx --write FOLDER``: the model as charts in Python, compared first."""
 
 import os
 import shutil
@@ -108,12 +108,10 @@ def _signals(model: LoweredModel, module: SourceModule) -> Iterator[tuple[str, s
             yield name, word
 
 
-# --- comparing -----------------------------------------------------------------------------------------------
+# --- comparing ---------------------------------------------------------------------------------------------
 
 
-def compared(
-    place: Path, drawn: LoweredModel, lowered: LoweredModel, step: str
-) -> tuple[Readings, Equality]:
+def compared(place: Path, drawn: LoweredModel, lowered: LoweredModel, step: str) -> tuple[Readings, Equality]:
     """Load what is written, and compare it with what is drawn.  Raises ``ModelError`` where they differ."""
     system = _loaded(place, drawn.system.name)
     readings = compared_readings(replace(drawn, system=system), SECONDS, step)
@@ -124,7 +122,7 @@ def compared(
     if difference or equal.difference:
         raise ModelError(
             f"{drawn.model.name} is not written: what was to be written does otherwise than what is drawn, "
-            f"{difference or equal.difference}. This is an error of rovercheck: please report it, with the file."
+            f"{difference or equal.difference}. This is an error of rovercheck: please report it."
         )
     return readings, equal
 
@@ -137,7 +135,7 @@ def _loaded(place: Path, name: str) -> System:
         raise ModelError(f"it cannot be written as a model in Python: {lines}") from error
 
 
-# --- the folder ----------------------------------------------------------------------------------------------
+# --- the folder --------------------------------------------------------------------------------------------
 
 
 def _refuse_full(folder: Path) -> None:
@@ -180,7 +178,8 @@ def _tell(folder: Path, written: WrittenModel, readings: Readings, equal: Equali
         _say(f"✓ It does what is drawn: proved, {equal.how}.")
     else:
         _say(f"• It does what is drawn in random runs; {equal.how}.")
-    _say(f"  In {counted(readings.steps, 'step', 'steps')} of random runs the direct interpreter gives the same.")
+    steps = counted(readings.steps, "step", "steps")
+    _say(f"  In {steps} of random runs the direct interpreter gives the same.")
     _say(f"Check it: rovercheck check --model {shown(folder)}")
 
 

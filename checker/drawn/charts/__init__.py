@@ -1,1 +1,1 @@
-"""What is drawn as charts of the language: states, transitions and actions that a person can read and edit."""
+"""What is drawn as charts of the language: states, transitions and actions that a person can edit."""

@@ -73,8 +73,8 @@ class ChartBuilder:
             refuse_dead_ends(node.defaults)
             if node.on_events:
                 raise NotLowered(
-                    f"the state {node.path} (SSID {node.ssid}) has actions on an event or a time, for which there "
-                    "is no section: draw a transition"
+                    f"the state {node.path} (SSID {node.ssid}) has actions on an event or a time, for which "
+                    "there is no section: draw a transition"
                 )
 
     # --- states --------------------------------------------------------------------------------------------
@@ -140,14 +140,18 @@ class ChartBuilder:
         """The child that was left last: the language has no history, and a variable does the same."""
         path = ".".join((self.view.name_of_chart, *self.view.paths[node.ssid]))
         members = [NOWHERE, *(self.view.name(child) for child in node.children)]
-        return Var(f"{path}.last", enumeration(f"last of {path}", members), 0, f"the state of {path} left last")
+        return Var(
+            f"{path}.last", enumeration(f"last of {path}", members), 0, f"the state of {path} left last"
+        )
 
     def _by_history(self, node: StateNode) -> list[Transition]:
         last = self._history.get(node.ssid)
         if last is None:
             return []
         return [
-            Transition(self.view.name(one), guard=last == Const(last.domain.raw(self.view.name(one)), last.sort))
+            Transition(
+                self.view.name(one), guard=last == Const(last.domain.raw(self.view.name(one)), last.sort)
+            )
             for one in node.children
         ]
 

@@ -82,7 +82,7 @@ def _term(condition: Expr, place: int) -> Expr:
 
 
 def _whole(group: Sequence[tuple[int, int, Expr]], always: Sequence[int]) -> tuple[Expr, list[int]]:
-    """Bits of one number as the number itself, if all others of it are ``always`` set; which of them it uses."""
+    """Bits of one number as the number, if all others are ``always`` set; and which of these it uses."""
     first, _, base = group[0]
     shift = first - group[0][1]
     low, high = least_and_greatest(base)
@@ -91,7 +91,9 @@ def _whole(group: Sequence[tuple[int, int, Expr]], always: Sequence[int]) -> tup
     if low < 0 or not set(missing) <= {place + shift for place in always} or len(group) < 2:
         if low >= 0 and shift == 0 and len(group) > 1 and numbers == set(range(len(numbers))):
             return Apply(Op.MOD, (base, const(2 ** len(numbers))), Num()), []
-        bits = [_term(Apply(Op.BIT, (one, Const(number, Num())), Bool()), place) for number, place, one in group]
+        bits = [
+            _term(Apply(Op.BIT, (one, Const(number, Num())), Bool()), place) for number, place, one in group
+        ]
         return reduce(lambda total, one: folded(total + one), bits), []
     moved = base
     if shift > 0:

@@ -1,4 +1,4 @@
-"""Complete paths of a drawn chart: where one leaves or enters other states than a chart of the language would."""
+"""Complete paths of a drawn chart: where one leaves or enters other states than a chart of ours would."""
 
 from collections.abc import Iterator, Sequence
 
@@ -101,8 +101,8 @@ def refuse_dead_ends(transitions: Sequence[TransitionNode]) -> None:
         for one in path:
             if begun[-1] is not one:
                 raise NotLowered(
-                    f"{one}: it leads to a dead end, at which Stateflow stops, before transitions that a chart "
-                    "of the language would go on to: draw it last, or its action as a during action"
+                    f"{one}: it leads to a dead end, at which Stateflow stops, before transitions that a "
+                    "chart of the language would go on to: draw it last, or its action as a during action"
                 )
             begun = one.target.outgoing if isinstance(one.target, JunctionNode) else begun
 

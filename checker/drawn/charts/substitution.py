@@ -1,4 +1,4 @@
-"""The temporaries of a text put into the formulas that read them, so that a chart needs no variables for them."""
+"""The temporaries of a text put into the formulas that read them: a chart needs no variables for them."""
 
 from collections.abc import Collection, Mapping, Sequence
 

@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.charts.chart import ChartBuilder, ChartLabels
 from rovercheck.checker.drawn.charts.substitution import actions_after
 from rovercheck.checker.drawn.charts.texts import ChartTexts
 from rovercheck.checker.drawn.charts.tidy import tidied, tidied_actions
+from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -21,7 +22,6 @@ from rovercheck.checker.drawn.lower.symbols import (
     leaves,
     single_of,
 )
-from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
@@ -44,11 +44,9 @@ def charts_of_model(lowered: LoweredModel, file: str, step: str = "") -> DrawnCh
 
     Raises ``NotLowered`` for what has no words in the language, with its place and a way around it.
     """
-    domains = {
-        name: one.domain
-        for name, one in (*lowered.system.written.items(), *lowered.system.inputs.items())
-        if name in lowered.taken or name in lowered.inputs
-    }
+    written = {name: one for name, one in lowered.system.written.items() if name in lowered.taken}
+    given = {name: one for name, one in lowered.inputs.items() if isinstance(one, Var)}
+    domains = {name: one.domain for name, one in (written | given).items()}
     labels: dict[str, ChartLabels] = {}
 
     class _Writer(LanguageSystemWriter):
@@ -167,9 +165,7 @@ class LanguageSystemWriter(SystemWriter):
             plain = kind and not kind.startswith("Bus: ")
             fitted = each_converted(value, kind, made.rules, kinds) if plain else value
             free = one.name not in self.context.names.data_written
-            scalars = [
-                self._named_input(leaf, s) if free else s for leaf, s in leaves(fitted, one.name)
-            ]
+            scalars = [self._named_input(leaf, s) if free else s for leaf, s in leaves(fitted, one.name)]
             made.cells[one.ssid] = filled(fitted, iter(scalars))
         for one in data:
             if one.scope == "input" and one.ssid not in made.cells:

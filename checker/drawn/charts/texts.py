@@ -34,6 +34,7 @@ from rovercheck.spec_model.lang.chart import Chart, State
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When
 from rovercheck.spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.walk import nodes, plain, structure
 
 _MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
@@ -66,7 +67,7 @@ class ChartTexts(ChartWriter):
     def guard(self, expression: Expression, node: StateNode) -> Expr:
         """A condition that is tested on a way from a state.  Raises ``NotLowered``."""
         self._begin()
-        made = self.condition(expression, self._at(node))
+        made = self.condition(expression, self._here(node))
         return self._named_once(
             tidied(condition_after(self.writer.written(made), made, self.writer.temporaries))
         )
@@ -74,14 +75,14 @@ class ChartTexts(ChartWriter):
     def word_of(self, expression: Expression, node: StateNode) -> Expr:
         """A time that stands where an event may.  Raises ``NotLowered``."""
         self._begin()
-        found = self.word(expression, self._at(node))
+        found = self.word(expression, self._here(node))
         if found is None:
             raise NotLowered("it is neither an event nor a time")
         return tidied(single_of(found).expr)
 
     def actions(self, statements: Sequence[ActionStatement], node: StateNode) -> tuple[Action, ...]:
         """A list of actions.  Raises ``NotLowered``."""
-        return self.written(partial(self.run, statements, self._at(node)))
+        return self.written(partial(self.run, statements, self._here(node)))
 
     def written(self, write: Callable[[], None]) -> tuple[Action, ...]:
         """What is written as actions.  Raises ``NotLowered``."""
@@ -97,7 +98,7 @@ class ChartTexts(ChartWriter):
 
     def flow(self, node: StateNode) -> tuple[Action, ...]:
         """The flow chart in a state, whose transitions only act.  Raises ``NotLowered``."""
-        return self.written(lambda: self._search(node.inner, self._at(node), lambda path: None))
+        return self.written(lambda: self._search(node.inner, self._here(node), lambda path: None))
 
     def flow_chart(self) -> tuple[Action, ...]:
         """A chart without states, which does the same in every step.  Raises ``NotLowered``."""
@@ -123,7 +124,7 @@ class ChartTexts(ChartWriter):
         for node in nodes(*formulas):
             if isinstance(node, Temporal) and node.when in (When.AFTER, When.DURATION):
                 raise NotLowered(
-                    f"`{node}` stands where no state is left: ask for it on a transition that leaves the state"
+                    f"`{node}` stands where no state is left: ask for it on a transition that leaves one"
                 )
 
     def _declared(self, one: DrawnData, node: StateNode, function: FunctionNode | None = None) -> Symbolic:
@@ -165,7 +166,7 @@ class ChartTexts(ChartWriter):
         self.writer = self.writer.fresh(self._own)
         self._stack = [(0, self.event)]
 
-    def _at(self, node: StateNode) -> TextScope:
+    def _here(self, node: StateNode) -> TextScope:
         return TextScope(node, self.rules, self.event, keeper=self.writer.name)
 
     def _with_sends(self, rows: Sequence[object]) -> Iterator[Action]:
@@ -209,22 +210,26 @@ class ChartTexts(ChartWriter):
 
     def _is_called(self, name: str, scope: TextScope) -> bool:
         """Whether a name is that of a function of the chart, called outside of functions."""
-        return not scope.function and not self.is_datum(name, scope) and function_in(scope.node, name) is not None
+        return (
+            not scope.function
+            and not self.is_datum(name, scope)
+            and function_in(scope.node, name) is not None
+        )
 
     def _counted(self, count: Expression, limit: Expression, sign: str, scope: TextScope) -> Expr | None:
         match count:
             case Applied(Name("temporalCount" | "elapsed" as name), arguments):
                 unit = words(arguments[0])[0] if arguments else "sec"
 
-                def at_least(span: object) -> Expr:
-                    return Temporal(When.AFTER, None, span)  # type: ignore[arg-type]
+                def at_least(span: Span) -> Expr:
+                    return Temporal(When.AFTER, None, span)
 
             case Applied(Name("duration" | "count" as name), (condition, *rest)):
                 unit = "tick" if name == "count" else words(rest[0])[0] if rest else "sec"
                 holds = self.condition(condition, scope)
 
-                def at_least(span: object) -> Expr:
-                    return Temporal(When.DURATION, holds, span)  # type: ignore[arg-type]
+                def at_least(span: Span) -> Expr:
+                    return Temporal(When.DURATION, holds, span)
 
             case _:
                 return None

@@ -6,7 +6,18 @@ from rovercheck.checker.drawn.charts.masks import bit_of_sum, mask_terms, masked
 from rovercheck.checker.drawn.lower.symbols import folded
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, Sort
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Temporal, all_of, any_of, const
+from rovercheck.spec_model.lang.expr import (
+    FALSE,
+    TRUE,
+    Apply,
+    Const,
+    Expr,
+    Named,
+    Temporal,
+    all_of,
+    any_of,
+    const,
+)
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.walk import plain
 
@@ -50,7 +61,7 @@ def _action(action: Action) -> Action:
     return action
 
 
-# --- rules: each takes an operator whose operands are tidy ---------------------------------------------------
+# --- rules: each takes an operator whose operands are tidy -------------------------------------------------
 
 
 def _as_it_is(expr: Apply) -> Expr:

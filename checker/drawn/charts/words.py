@@ -1,4 +1,4 @@
-"""Words of drawn charts about time and change as those of the language: ``after``, ``duration``, ``rising``."""
+"""Words of drawn charts about time and change as those of the language, as ``after`` and ``duration``."""
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction

@@ -25,8 +25,8 @@ def lowered_model(
 ) -> LoweredModel:  # fmt: skip
     """The system of a model.
 
-    ``domains`` are those of inputs and data, by name; ``systems`` makes the components.  Raises ``NotLowered`` for what has no formula, with
-    its place, and for a datum whose range is not given.
+    ``domains`` are those of inputs and data, by name; ``systems`` makes the components.
+    Raises ``NotLowered`` for what has no formula, with its place, and for a datum whose range is not given.
     """
     try:
         return _lowered(model, file, domains or {}, step, systems)

@@ -285,7 +285,7 @@ class ProgramWriter:
         return made
 
     def written(self, *after: Expr) -> tuple[Statement, ...]:
-        """All statements, without assignments to temporaries that neither they nor formulas after them read."""
+        """All statements, without assignments to temporaries that nothing reads, nor a formula after them."""
         self._close()
         made, before = tuple(self._rows), -1
         while before != len(self.temporaries):

@@ -23,7 +23,7 @@ from rovercheck.spec_model.lang.transition import Transition
 
 
 class ChartSource:
-    """Writes one chart.  ``data`` are what its labels may name: the words of Python, and what each stands for."""
+    """Writes one chart.  ``data`` are what its labels may name: words of Python, and what each stands for."""
 
     def __init__(
         self, chart: Chart, labels: ChartLabels, formulas: FormulaSource, data: Sequence[tuple[str, object]]

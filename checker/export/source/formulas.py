@@ -129,7 +129,7 @@ class FormulaSource:
         word = self.word(CALLS[op])
         if op is Op.DIV and isinstance(args[0].sort, Num) and args[0].sort.resolution != 1:
             raise ModelError(
-                f"`{Apply(op, tuple(args), Num())}` rounds a fraction, for which there is no word in a chart: "
+                f"`{Apply(op, tuple(args), Num())}` rounds a fraction, for which a chart has no word: "
                 "round it in a function block outside, or give its data a resolution that needs none"
             )
         if op is Op.ABS:
@@ -178,7 +178,8 @@ class FormulaSource:
 
 
 CALLS: Mapping[Op, str] = {
-    Op.ABS: "absolute", Op.MIN: "minimum", Op.MAX: "maximum", Op.DIV: "quotient", Op.MOD: "modulo", Op.BIT: "bit",
+    Op.ABS: "absolute", Op.MIN: "minimum", Op.MAX: "maximum", Op.DIV: "quotient", Op.MOD: "modulo",
+    Op.BIT: "bit",
 }  # fmt: skip
 
 

@@ -69,7 +69,10 @@ def laid_out(source: Source, indent: str = "", before: str = "", after: str = ""
         case Keyword(name, value):
             return laid_out(value, indent, f"{before}{name}=", after)
         case Commented(comments, value):
-            return [*(f"{indent}# {one}".rstrip() for one in comments), *laid_out(value, indent, before, after)]
+            return [
+                *(f"{indent}# {one}".rstrip() for one in comments),
+                *laid_out(value, indent, before, after),
+            ]
         case Lines(lines):
             return list(_quoted(lines, f"{indent}{before}", after))
         case Call(_, parts):

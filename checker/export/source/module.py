@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-import rovercheck.language as language
+from rovercheck import language
 from rovercheck.checker.drawn.charts.chart import ChartLabels
 from rovercheck.checker.export.source.charts import ChartSource
 from rovercheck.checker.export.source.formulas import FormulaSource
@@ -109,7 +109,9 @@ class _Module:
     def _imports(self) -> Iterator[str]:
         words = sorted(self._source.used, key=lambda one: (not one.isupper(), one.islower(), one))
         short = f"from rovercheck import {', '.join(words)}"
-        yield from [short] if len(short) <= 88 else ["from rovercheck import (", *(f"    {w}," for w in words), ")"]
+        yield from (
+            [short] if len(short) <= 88 else ["from rovercheck import (", *(f"    {w}," for w in words), ")"]
+        )
 
     @staticmethod
     def _assigned(name: str, source: Source) -> list[str]:
@@ -167,7 +169,7 @@ class _Module:
         if isinstance(domain.sort, Enum):
             if len(domain) != len(domain.sort.members):
                 raise ModelError(
-                    f"{domain} has fewer values than {domain.sort}; give it all of them in the file of domains"
+                    f"{domain} has fewer values than {domain.sort}; give it all of them in its domain"
                 )
             if domain not in self._domains:
                 self._members[domain.sort] = self._domains[domain] = self._names.constant(domain.sort.name)
@@ -210,7 +212,11 @@ class _Module:
     def _part(self, part: Chart | Block) -> list[str]:
         name = self._charts[part.name]
         if isinstance(part, Block):
-            made: list[Source] = [quoted(part.name), self._source.actions(part.do), Keyword("text", quoted(part.text))]
+            made: list[Source] = [
+                quoted(part.name),
+                self._source.actions(part.do),
+                Keyword("text", quoted(part.text)),
+            ]
             if part.temporaries:
                 some = [self._source.names[one.name] for one in part.temporaries]
                 made.append(Keyword("temporaries", listed(some)))

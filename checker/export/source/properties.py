@@ -65,7 +65,9 @@ class _Rewriter:
         asked = [one for one in tree.body if self._asks(one)]
         if len(asked) != 1 or not imports:
             line = asked[1].lineno if len(asked) > 1 else 1
-            raise ModelError(f"line {line}: it does not say `name = {ASKED}(...)` once, at the level of the file")
+            raise ModelError(
+                f"line {line}: it does not say `name = {ASKED}(...)` once, at the level of the file"
+            )
         [statement] = asked
         assert isinstance(statement, ast.Assign)
         [target] = statement.targets
@@ -76,7 +78,11 @@ class _Rewriter:
         for node in ast.walk(tree):
             self._replace(node)
         for node in ast.walk(tree):
-            if isinstance(node, ast.Name) and node.id in (*self._models, ASKED) and id(node) not in self._done:
+            if (
+                isinstance(node, ast.Name)
+                and node.id in (*self._models, ASKED)
+                and id(node) not in self._done
+            ):
                 raise ModelError(
                     f"line {node.lineno}: `{node.id}` is used otherwise than as {node.id}[NAME], "
                     f"{node.id}.active(STATE) or {node.id}.system"
@@ -84,7 +90,9 @@ class _Rewriter:
 
     @staticmethod
     def _imports(node: ast.stmt) -> bool:
-        return isinstance(node, ast.ImportFrom) and any(one.name == ASKED and not one.asname for one in node.names)
+        return isinstance(node, ast.ImportFrom) and any(
+            one.name == ASKED and not one.asname for one in node.names
+        )
 
     @staticmethod
     def _asks(node: ast.stmt) -> bool:
@@ -110,17 +118,28 @@ class _Rewriter:
 
     def _remove(self, statement: ast.Assign) -> None:
         """The statement with its line, where it has one."""
-        start, end = self._starts[statement.lineno - 1], self._starts[statement.end_lineno or statement.lineno]
+        start, end = (
+            self._starts[statement.lineno - 1],
+            self._starts[statement.end_lineno or statement.lineno],
+        )
         self.edits.append(_Edit(start, end, ""))
         self._done |= {id(node) for node in ast.walk(statement)}
 
     def _replace(self, node: ast.AST) -> None:
         match node:
-            case ast.Subscript(ast.Name(model) as owner, ast.Constant(str() as name)) if model in self._models:
+            case ast.Subscript(ast.Name(model) as owner, ast.Constant(str() as name)) if (
+                model in self._models
+            ):
                 self._done.add(id(owner))
                 self._edit(node, f"{model}.{self._signal(name, node)}")
-            case ast.Call(ast.Attribute(ast.Name(model) as owner, "active"), states, []) if model in self._models:
-                texts = [one.value for one in states if isinstance(one, ast.Constant) and isinstance(one.value, str)]
+            case ast.Call(ast.Attribute(ast.Name(model) as owner, "active"), states, []) if (
+                model in self._models
+            ):
+                texts = [
+                    one.value
+                    for one in states
+                    if isinstance(one, ast.Constant) and isinstance(one.value, str)
+                ]
                 if len(texts) != len(states):
                     raise ModelError(f"line {node.lineno}: the names of its states are no plain texts")
                 self._done.add(id(owner))
@@ -128,10 +147,11 @@ class _Rewriter:
             case ast.Attribute(ast.Name(model) as owner, "system") if model in self._models:
                 self._done.add(id(owner))
                 self._edit(node, f"{model}.{self._names.system}")
-            case (
-                ast.GeneratorExp(ast.Subscript(ast.Name(model) as owner, ast.Name(each)), [turns])
-                | ast.ListComp(ast.Subscript(ast.Name(model) as owner, ast.Name(each)), [turns])
-            ) if model in self._models:
+            case ast.GeneratorExp(
+                ast.Subscript(ast.Name(model) as owner, ast.Name(each)), [turns]
+            ) | ast.ListComp(ast.Subscript(ast.Name(model) as owner, ast.Name(each)), [turns]) if (
+                model in self._models
+            ):
                 words = list(self._each(turns, each))
                 if not words:
                     return
