@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from rovercheck.checker.export.source.layout import Call, Keyword, Source, call, listed, quoted
 from rovercheck.spec_model.lang.action import Action, Assign, If, Send
+from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
@@ -30,6 +31,8 @@ class FormulaSource:
     names: Mapping[str, str]
     formulas: Mapping[object, str]
     members: Mapping[Enum, str]
+    charts: Mapping[str, tuple[str, Chart, Path]] = field(default_factory=dict)
+    """Of the variables that say which state is active the word of the chart, and the path of the level."""
     used: set[str] = field(default_factory=set)
 
     def word(self, name: str) -> str:
@@ -60,6 +63,8 @@ class FormulaSource:
             case Const():
                 return self._constant(expr)
             case Var(name):
+                if name not in self.names:
+                    raise ModelError(f"`{name}` says which states are active in a way that has no words")
                 return self.names[name]
             case Named(name, body):
                 known = self.formulas.get((name, structure(body)))
@@ -97,7 +102,21 @@ class FormulaSource:
         shown = self._value(expr)
         return f"({shown})" if shown.startswith("-") and above > _SUM else shown
 
+    def _active(self, op: Op, args: Sequence[Expr]) -> str:
+        """``chart.active("STATE")`` where a formula asks whether a state is active."""
+        match op, *args:
+            case ((Op.EQ | Op.NE), Var(name), Const(value, Enum() as enum)) if name in self.charts:
+                word, chart, level = self.charts[name]
+                first = chart.states[level].states[0].name
+                path = (*level, first if name == chart.entered.name else enum.member(value))
+                if path in chart.states and (name != chart.entered.name or value == 1):
+                    shown = f"{word}.active({quoted('.'.join(path))})"
+                    return shown if op is Op.EQ else f"~{shown}"
+        return ""
+
     def _applied(self, op: Op, args: Sequence[Expr], above: int) -> str:
+        if active := self._active(op, args):
+            return _within(active, _SIGN if active.startswith("~") else _ATOM, above)
         if op is Op.SCALE:
             return self.text(args[0], above)
         if op is Op.NOT:

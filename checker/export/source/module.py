@@ -1,6 +1,6 @@
 """A system as a module of Python: its domains, data and charts, in the order of execution."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,7 +11,7 @@ from rovercheck.checker.export.source.formulas import FormulaSource
 from rovercheck.checker.export.source.layout import Keyword, Source, call, laid_out, listed, quoted
 from rovercheck.checker.export.source.names import SourceNames
 from rovercheck.spec_model.lang.action import expressions
-from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, Path, parts
 from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Named, Var
@@ -57,15 +57,25 @@ class _Module:
             self._variables.setdefault(one.name, one)
         names = {name: self._names.variable(name) for name in self._variables}
         self._formulas_named = {
-            key: (self._names.variable(one.name), one) for key, one in self._named_formulas().items()
+            key: (self._names.variable(one.name), one)
+            for key, one in _named_formulas(self._expressions()).items()
         }
         self._charts = {one.name: self._names.thing(one.name) for one in parts(system.components)}
         self._own = self._names.thing(system.name, "system")
+        self._defined = set[object]()
         self._domains: dict[Domain, str] = {}
         self._members: dict[Enum, str] = {}
-        self._source = FormulaSource(
-            names, {key: name for key, (name, _) in self._formulas_named.items()}, self._members
-        )
+        formulas = {key: name for key, (name, _) in self._formulas_named.items()}
+        self._source = FormulaSource(names, formulas, self._members, dict(self._places()))
+
+    def _places(self) -> Iterator[tuple[str, tuple[str, Chart, Path]]]:
+        """The variables that say which states of charts are active."""
+        for chart in self._system.charts:
+            word = self._charts[chart.name]
+            yield chart.entered.name, (word, chart, ())
+            for path, state in chart.states.items():
+                if state.states and not state.parallel:
+                    yield chart.location(path).name, (word, chart, path)
 
     def _written(self) -> Iterator[Var]:
         for part in parts(self._system.components):
@@ -79,27 +89,13 @@ class _Module:
         for one in enabled_in(self._system.components):
             yield one.by
 
-    def _named_formulas(self) -> dict[object, Named]:
-        """Named formulas, those inside others first."""
-        found: dict[object, Named] = {}
-        waiting: list[tuple[Expr, bool]] = [(one, False) for one in self._expressions()]
-        seen = set[int]()
-        while waiting:
-            one, below_done = waiting.pop()
-            if below_done and isinstance(one, Named):
-                found.setdefault((one.name, structure(one.body)), one)
-            elif not below_done and id(one) not in seen:
-                seen.add(id(one))
-                waiting += [(one, True), *((part, False) for part in children(one))]
-        return found
-
     def written(self) -> SourceModule:
         """The module.  Raises ``ModelError``."""
         data = list(self._data())
-        formulas = list(self._constants())
-        charts = [line for part in parts(self._system.components) for line in ("", *self._part(part))]
-        last = ["", *self._assigned(self._own, self._call_of_system())]
-        body = [*self._types(), *data, *formulas, *charts, *last]
+        charts = [line for part in parts(self._system.components) for line in self._part(part)]
+        enables = [one.by for one in enabled_in(self._system.components)]
+        last = [*self._constants(enables), *self._assigned(self._own, self._call_of_system())]
+        body = [*self._types(), *data, *charts, *last]
         head = [f'"""{_docstring(self._title)}"""', "", *self._imports(), ""]
         return SourceModule(
             "\n".join([*head, *body]).rstrip() + "\n", self._own, self._charts, self._source.names,
@@ -200,28 +196,33 @@ class _Module:
                 return call(self._source.word("fixed"), *ends, _shown(resolution))
         raise AssertionError(domain)
 
-    def _constants(self) -> Iterator[str]:
-        """Formulas with names: constants, and inputs of charts."""
-        for name, one in self._formulas_named.values():
-            body = self._source.formula(one.body)
-            made = call(self._source.word("named"), quoted(one.name), body)
-            yield from self._assigned(name, made)
+    def _constants(self, formulas: Sequence[Expr]) -> Iterator[str]:
+        """Formulas with names that are used here first: constants, inputs of charts, calls of functions."""
+        for key, one in _named_formulas(formulas).items():
+            if key not in self._defined:
+                self._defined.add(key)
+                name, _ = self._formulas_named[key]
+                made = call(self._source.word("named"), quoted(one.name), self._source.formula(one.body))
+                yield from self._assigned(name, made)
 
     # --- charts and blocks ---------------------------------------------------------------------------------
 
     def _part(self, part: Chart | Block) -> list[str]:
         name = self._charts[part.name]
-        if isinstance(part, Block):
-            made: list[Source] = [
-                quoted(part.name),
-                self._source.actions(part.do),
-                Keyword("text", quoted(part.text)),
-            ]
-            if part.temporaries:
-                some = [self._source.names[one.name] for one in part.temporaries]
-                made.append(Keyword("temporaries", listed(some)))
-            return self._assigned(name, call(self._source.word("Block"), *made))
-        return self._assigned(name, self._chart(part))
+        formulas = list(
+            self._constants(part.expressions if isinstance(part, Chart) else [*expressions(part.do)])
+        )
+        made = self._chart(part) if isinstance(part, Chart) else self._block(part)
+        return [*formulas, *([""] if formulas else []), *self._assigned(name, made), ""]
+
+    def _block(self, block: Block) -> Source:
+        made: list[Source] = [quoted(block.name), self._source.actions(block.do)]
+        if block.text:
+            made.append(Keyword("text", quoted(block.text)))
+        if block.temporaries:
+            some = [self._source.names[one.name] for one in block.temporaries]
+            made.append(Keyword("temporaries", listed(some)))
+        return call(self._source.word("Block"), *made)
 
     def _chart(self, chart: Chart) -> Source:
         used = list(self._used(chart))
@@ -265,6 +266,21 @@ class _Module:
         if isinstance(note, Note):
             return call(self._source.word("Note"), quoted(str(note)), Keyword("brief", quoted(note.brief)))
         return quoted(note)
+
+
+def _named_formulas(formulas: Iterable[Expr]) -> dict[object, Named]:
+    """Named formulas by name and structure, those inside others first."""
+    found: dict[object, Named] = {}
+    waiting: list[tuple[Expr, bool]] = [(one, False) for one in formulas]
+    seen = set[int]()
+    while waiting:
+        one, below_done = waiting.pop()
+        if below_done and isinstance(one, Named):
+            found.setdefault((one.name, structure(one.body)), one)
+        elif not below_done and id(one) not in seen:
+            seen.add(id(one))
+            waiting += [(one, True), *((part, False) for part in children(one))]
+    return found
 
 
 def _outside_names(formulas: Sequence[Expr]) -> set[str]:
