@@ -1,6 +1,6 @@
 """Formulas and actions as they are written in Python, and which words they take."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -10,7 +10,7 @@ from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
-from rovercheck.spec_model.lang.operators import COMPARISONS, SIGNS, Op
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.walk import plain, structure
 
@@ -48,7 +48,7 @@ class FormulaSource:
             case Apply(Op.AND | Op.OR as op, args) if len(self.text(expr)) > LONGEST:
                 return call(self.word("all_of" if op is Op.AND else "any_of"), *map(self.formula, args))
             case Apply(Op.ITE, args) if len(self.text(expr)) > LONGEST:
-                return call(self.word("ite"), *map(self.formula, args[:1]), *self._branches(args[1:]))
+                return call(self.word("ite"), *map(self.formula, args[:1]), *self.branches(args[1:]))
             case Apply(Op.MIN | Op.MAX as op, args) if len(self.text(expr)) > LONGEST:
                 word = self.word("minimum" if op is Op.MIN else "maximum")
                 return call(word, *(self._plain(one) for one in args))
@@ -94,7 +94,8 @@ class FormulaSource:
             case Num(resolution, _):
                 return _number(expr.value * resolution)
 
-    def _beside(self, expr: Expr, other: Expr, above: int) -> str:
+    def beside(self, expr: Expr, other: Expr, above: int) -> str:
+        """A formula as an operand: a constant is plain beside what is none."""
         if isinstance(plain(expr), Const) and isinstance(plain(other), Const):
             return self.text(expr, above)
         if not isinstance(expr, Const):
@@ -117,44 +118,14 @@ class FormulaSource:
     def _applied(self, op: Op, args: Sequence[Expr], above: int) -> str:
         if active := self._active(op, args):
             return _within(active, _SIGN if active.startswith("~") else _ATOM, above)
-        if op is Op.SCALE:
-            return self.text(args[0], above)
-        if op is Op.NOT:
-            return _within(f"~{self.text(args[0], _ATOM)}", _SIGN, above)
-        if op is Op.NEG:
-            return _within(f"-{self.text(args[0], _ATOM)}", _SIGN, above)
-        if op in (Op.AND, Op.OR):
-            level, sign = (_AND, " & ") if op is Op.AND else (_OR, " | ")
-            return _within(sign.join(self.text(one, level + 1) for one in args), level, above)
-        if op in COMPARISONS or op in SIGNS:
-            level = _COMPARED if op in COMPARISONS else _PRODUCT if op is Op.MUL else _SUM
-            one, other = args
-            left = self._beside(one, other, level + (op in COMPARISONS))
-            right = self._beside(other, one, level + 1)
-            return _within(f"{left} {SIGNS[op]} {right}", level, above)
-        if op is Op.ITE:
-            branches = ", ".join(map(str, self._branches(args[1:])))
-            return f"{self.word('ite')}({self.text(args[0])}, {branches})"
-        return self._called(op, args)
+        return OPERATIONS[op](self, args, above)
 
-    def _branches(self, args: Sequence[Expr]) -> list[str]:
+    def branches(self, args: Sequence[Expr]) -> list[str]:
         """Both values of a choice; of two members the first must say its enumeration."""
         one, other = args
         if isinstance(one, Const) and isinstance(other, Const) and not isinstance(one.sort, Num):
             return [self.text(one), self._value(other)]
         return [self._value(arg) if isinstance(arg, Const) else self.text(arg) for arg in args]
-
-    def _called(self, op: Op, args: Sequence[Expr]) -> str:
-        word = self.word(CALLS[op])
-        if op is Op.DIV and isinstance(args[0].sort, Num) and args[0].sort.resolution != 1:
-            raise ModelError(
-                f"`{Apply(op, tuple(args), Num())}` rounds a fraction, for which a chart has no word: "
-                "round it in a function block outside, or give its data a resolution that needs none"
-            )
-        if op is Op.ABS:
-            return f"{word}({self.text(args[0])})"
-        first = self._beside(args[0], args[1], _COMPARED)
-        return f"{word}({first}, {self._beside(args[1], args[0], _COMPARED)})"
 
     def _temporal(self, word: Temporal, above: int) -> str:
         span = "" if word.span is None else self.span(word.span)
@@ -196,10 +167,73 @@ class FormulaSource:
                 return call(self.word("send"), quoted(event), quoted(receiver))
 
 
-CALLS: Mapping[Op, str] = {
-    Op.ABS: "absolute", Op.MIN: "minimum", Op.MAX: "maximum", Op.DIV: "quotient", Op.MOD: "modulo",
-    Op.BIT: "bit",
-}  # fmt: skip
+Row = Callable[[FormulaSource, Sequence[Expr], int], str]
+"""Writes an operator with its arguments, in parentheses where what is around it binds as tightly."""
+
+
+def _between(sign: str, level: int, first: int) -> Row:
+    """A sign between two values, of which the left one binds at least as tightly as ``first``."""
+
+    def row(source: FormulaSource, args: Sequence[Expr], above: int) -> str:
+        one, other = args
+        left, right = source.beside(one, other, first), source.beside(other, one, level + 1)
+        return _within(f"{left} {sign} {right}", level, above)
+
+    return row
+
+
+def _joined(sign: str, level: int) -> Row:
+    return lambda source, args, above: _within(
+        sign.join(source.text(one, level + 1) for one in args), level, above
+    )
+
+
+def _before(sign: str) -> Row:
+    return lambda source, args, above: _within(f"{sign}{source.text(args[0], _ATOM)}", _SIGN, above)
+
+
+def _called(word: str) -> Row:
+    def row(source: FormulaSource, args: Sequence[Expr], _: int) -> str:
+        shown = [source.text(args[0])] if len(args) == 1 else [
+            source.beside(args[0], args[1], _COMPARED), source.beside(args[1], args[0], _COMPARED)
+        ]  # fmt: skip
+        return f"{source.word(word)}({', '.join(shown)})"
+
+    return row
+
+
+def _quotient(source: FormulaSource, args: Sequence[Expr], above: int) -> str:
+    if args[0].sort != Num():
+        raise ModelError(
+            f"`{Apply(Op.DIV, tuple(args), Num())}` rounds a fraction, for which a chart has no word: "
+            "round it in a function block outside, or give its data a resolution that needs none"
+        )
+    return _called("quotient")(source, args, above)
+
+
+def _choice(source: FormulaSource, args: Sequence[Expr], _: int) -> str:
+    return f"{source.word('ite')}({source.text(args[0])}, {', '.join(source.branches(args[1:]))})"
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    Op.OR: _joined(" | ", _OR),
+    Op.AND: _joined(" & ", _AND),
+    **{op: _between(op.value, _COMPARED, _COMPARED + 1) for op in COMPARISONS},
+    Op.ADD: _between("+", _SUM, _SUM),
+    Op.SUB: _between("-", _SUM, _SUM),
+    Op.MUL: _between("*", _PRODUCT, _PRODUCT),
+    Op.NOT: _before("~"),
+    Op.NEG: _before("-"),
+    Op.SCALE: lambda source, args, above: source.text(args[0], above),
+    Op.ITE: _choice,
+    Op.DIV: _quotient,
+    Op.MOD: _called("modulo"),
+    Op.ABS: _called("absolute"),
+    Op.MIN: _called("minimum"),
+    Op.MAX: _called("maximum"),
+    Op.BIT: _called("bit"),
+}
+"""Every operator as it is written in Python."""
 
 
 def _within(shown: str, level: int, above: int) -> str:
