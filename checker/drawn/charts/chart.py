@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from rovercheck.checker.drawn.charts.paths import (
+    behind_border,
     end_of,
     ends_in_state,
     paths_from,
@@ -248,7 +249,7 @@ class ChartBuilder:
             case JunctionNode() as junction:
                 return ".".join(self.view.paths[junction.holder.ssid])
             case StateNode() as node:
-                return ".".join(self.view.paths[node.ssid])
+                return ".".join(self.view.paths[(behind_border(one) or node).ssid])
         raise AssertionError(one)
 
     @contextmanager

@@ -42,7 +42,22 @@ def end_of(path: DrawnPath) -> StateNode:
     """The state that a complete path leads to."""
     end = path[-1].target
     assert end is not None
-    return end.holder if isinstance(end, JunctionNode) else end
+    if isinstance(end, JunctionNode):
+        return end.holder
+    return behind_border(path[-1]) or end
+
+
+def behind_border(one: TransitionNode) -> StateNode | None:
+    """The state that is entered by a transition from inside a state to its border, if it is always that one."""
+    end = one.target
+    if not isinstance(end, StateNode) or end not in one.holder.lineage() or end.history or end.parallel:
+        return None
+    match end.defaults:
+        case [TransitionNode(target=StateNode() as first) as only] if first is not end:
+            label = only.label
+            silent = not (label.events or label.condition_actions or label.transition_actions)
+            return first if silent and label.guard is None else None
+    return None
 
 
 def refuse_other_scopes(chart: ParsedChart) -> None:
@@ -107,4 +122,4 @@ def refuse_dead_ends(transitions: Sequence[TransitionNode]) -> None:
             begun = one.target.outgoing if isinstance(one.target, JunctionNode) else begun
 
 
-__all__ = ["DrawnPath", "end_of", "ends_in_state", "paths_from", "refuse_dead_ends", "refuse_other_scopes"]
+__all__ = ["DrawnPath", "behind_border", "end_of", "ends_in_state", "paths_from", "refuse_dead_ends", "refuse_other_scopes"]
