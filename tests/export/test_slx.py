@@ -29,6 +29,12 @@ def test_a_random_system_read_again_does_the_same(tmp_path: Path, part: int) -> 
     assert alike * 10 >= SYSTEMS // 2 * 8
 
 
+@pytest.mark.parametrize("seed", [3, 5, 7, 12])
+def test_a_random_system_written_in_python_again_does_the_same(tmp_path: Path, seed: int) -> None:
+    """Out of the charts into a file of Simulink, and out of that into charts again."""
+    assert differences(random_system(seed), tmp_path, seed, written=True) == ROWS
+
+
 def test_an_enabled_subsystem_is_refused_with_its_parts() -> None:
     lamp = Chart("Lamp", [State("Off")], default="Off")
     with pytest.raises(ModelError, match="the subsystem of Lamp executes only while `on`"):

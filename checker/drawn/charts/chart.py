@@ -2,28 +2,32 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from rovercheck.checker.drawn.charts.paths import (
+    DEAD_END,
     behind_border,
     end_of,
     ends_in_state,
+    is_dead_end,
     paths_from,
     refuse_dead_ends,
     refuse_other_scopes,
 )
 from rovercheck.checker.drawn.charts.texts import ChartTexts
+from rovercheck.checker.drawn.charts.tidy import tidied
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.parsed import JunctionNode, StateNode, TransitionNode
-from rovercheck.spec_model.lang.action import Action, Assign
+from rovercheck.spec_model.lang.action import Action, Assign, Send, each_action
 from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State
 from rovercheck.spec_model.lang.domain import enumeration
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, all_of
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.transition import Junction, Transition
+from rovercheck.spec_model.lang.walk import variables
 
 
 @dataclass
@@ -202,9 +206,39 @@ class ChartBuilder:
     def _transitions(
         self, drawn: Sequence[TransitionNode], source: StateNode, timeless: bool = False
     ) -> list[Transition]:
-        return [made for one in drawn for made in self._transition(one, source, timeless)]
+        """The transitions; those behind a dead end are tested where its condition does not hold only."""
+        found, excluded = list[Transition](), list[Expr]()
+        made = [list(self._transition(one, source, timeless)) for one in drawn]
+        for number, (one, some) in enumerate(zip(drawn, made, strict=True)):
+            for each in some:
+                guards = [*excluded, *([] if each.guard is None else [each.guard])]
+                found.append(replace(each, guard=all_of(*guards)) if excluded else each)
+            if is_dead_end(one) and number + 1 < len(drawn):
+                later = [t for other in drawn[number + 1 :] for t in self._behind(other, source)]
+                excluded.append(self._unless(one, some, later))
+        return found
 
-    def _transition(self, one: TransitionNode, source: StateNode, timeless: bool) -> Iterator[Transition]:
+    def _behind(self, one: TransitionNode, source: StateNode) -> Iterator[Transition]:
+        """What may still be tested from a transition on."""
+        yield from (
+            made for path in paths_from([one]) for each in path for made in self._transition(each, source)
+        )
+
+    @staticmethod
+    def _unless(one: TransitionNode, made: Sequence[Transition], later: Sequence[Transition]) -> Expr:
+        """That a path has not ended at a dead end, which can be asked for as long as nothing has changed."""
+        [dead] = made if len(made) == 1 else [None]
+        if dead is None or dead.guard is None or dead.event is not None:
+            raise NotLowered(f"{one}: {DEAD_END}")
+        actions = [action for each in (dead, *later) for action in each_action(each.do)]
+        changed = {action.var.name for action in actions if isinstance(action, Assign)}
+        if any(isinstance(action, Send) for action in actions) or variables(dead.guard).keys() & changed:
+            raise NotLowered(f"{one}: {DEAD_END}")
+        return tidied(~dead.guard)
+
+    def _transition(
+        self, one: TransitionNode, source: StateNode, timeless: bool = False
+    ) -> Iterator[Transition]:
         if one.target is None:
             if one.label.condition_actions:
                 raise NotLowered(f"{one}: it leads nowhere, and has an action")

@@ -48,7 +48,7 @@ def end_of(path: DrawnPath) -> StateNode:
 
 
 def behind_border(one: TransitionNode) -> StateNode | None:
-    """The state that is entered by a transition from inside a state to its border, if it is always that one."""
+    """The state that a transition from inside a state to its border enters, if it is always the same."""
     end = one.target
     if not isinstance(end, StateNode) or end not in one.holder.lineage() or end.history or end.parallel:
         return None
@@ -107,19 +107,29 @@ def _refuse_reentry(root: StateNode, source: StateNode, path: DrawnPath) -> None
 
 
 def refuse_dead_ends(transitions: Sequence[TransitionNode]) -> None:
-    """Raises ``NotLowered`` for a dead end behind which other transitions would still be tested."""
+    """Raises ``NotLowered`` for a dead end behind which those of an earlier junction would be tested."""
     for path in paths_from(transitions):
-        end = path[-1].target
-        if end is None or ends_in_state(path):
+        if path[-1].target is None or ends_in_state(path):
             continue
         begun = transitions
-        for one in path:
+        for one in path[:-1]:
             if begun[-1] is not one:
-                raise NotLowered(
-                    f"{one}: it leads to a dead end, at which Stateflow stops, before transitions that a "
-                    "chart of the language would go on to: draw it last, or its action as a during action"
-                )
+                raise NotLowered(f"{path[-1]}: {DEAD_END}")
             begun = one.target.outgoing if isinstance(one.target, JunctionNode) else begun
 
 
-__all__ = ["DrawnPath", "behind_border", "end_of", "ends_in_state", "paths_from", "refuse_dead_ends", "refuse_other_scopes"]
+DEAD_END = (
+    "it leads to a dead end, at which Stateflow stops, before transitions that a chart of the language would "
+    "go on to: draw it last, or its action as a during action"
+)
+
+
+def is_dead_end(one: TransitionNode) -> bool:
+    """Whether a transition leads to a junction that nothing leaves."""
+    return isinstance(one.target, JunctionNode) and not one.target.history and not one.target.outgoing
+
+
+__all__ = [
+    "DEAD_END", "DrawnPath", "behind_border", "end_of", "ends_in_state", "is_dead_end", "paths_from",
+    "refuse_dead_ends", "refuse_other_scopes",
+]  # fmt: skip
