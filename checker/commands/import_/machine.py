@@ -15,7 +15,7 @@ def import_machine(path: Path, others: bool) -> Exit:
     """Read a machine, and say what is in it.  Raises ``ModelError`` for one that cannot be read."""
     if others:
         raise UsageError(
-            "--beside, --compare, --propose-domains, --strict, --write and --json are for models of Simulink. "
+            "--beside, --compare, --propose-domains, --strict, --write and --json are for Simulink. "
             "A machine is edited in its own file: `--model MACHINE.scxml` works with it."
         )
     machine = read_scxml(path)

@@ -146,7 +146,10 @@ class ChartBuilder:
         path = ".".join((self.view.name_of_chart, *self.view.paths[node.ssid]))
         members = [NOWHERE, *(self.view.name(child) for child in node.children)]
         return Var(
-            f"{path}.last", enumeration(f"last of {path}", members), 0, f"the state of {path} left last"
+            f"{path}.last",
+            enumeration(f"last of {path}", members),
+            0,
+            f"history of {path}: its state left last",
         )
 
     def _by_history(self, node: StateNode) -> list[Transition]:

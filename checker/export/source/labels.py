@@ -82,8 +82,8 @@ class LabelWriter:
         joined = (" ".join(lines),) if sum(map(len, lines)) <= LONGEST else lines
         for some in (joined, lines):
             if self._is(some, says):
-                comment = () if _bare("".join(own)) == _bare("".join(some)) else own
-                return WrittenLabel(some, comment)
+                same = _bare("\n".join(own)) == _bare("\n".join(some))
+                return WrittenLabel(some, () if same else _in_one_line(own))
         return None
 
     @staticmethod
@@ -201,14 +201,30 @@ def _broken(part: str) -> Iterator[str]:
     yield rest
 
 
+_CONVERTED = re.compile(r"\b(?:u?int(?:8|16|32|64)|double|single|boolean|logical)\((\w+(?:\.\w+)?)\)")
+_SECTION = re.compile(r"\s*[a-z]+(?:\s*,\s*[a-z]+)*\s*:")
+_REMEMBERED = re.compile(r"ex:[\w.]+\.last=\w+$")
+"""What is done for a history, at the end of the text of a state."""
+
+
 def _bare(label: str) -> str:
-    """A label without what does not change its meaning."""
-    made = re.sub(r"\s+", "", label).replace("~=", "!=").replace("~", "!").replace(";", "")
-    return made.replace("entry:", "en:").replace("during:", "du:").replace("exit:", "ex:")
+    """A label without what does not change its meaning, nor what a reader takes it for."""
+    made = _CONVERTED.sub(r"\1", re.sub(r"[ \t\n]+|;", "", label))
+    made = made.replace("~=", "!=").replace("~", "!")
+    made = made.replace("entry:", "en:").replace("during:", "du:").replace("exit:", "ex:")
+    return _REMEMBERED.sub("", made).removeprefix("en:")
 
 
 def _comment(drawn: str) -> tuple[str, ...]:
-    return tuple(line.strip() for line in drawn.strip().splitlines() if line.strip())
+    return _in_one_line([line.strip() for line in drawn.strip().splitlines() if line.strip()])
+
+
+def _in_one_line(lines: Sequence[str]) -> tuple[str, ...]:
+    """Lines of a label as one, where that is short and no comment ends in it."""
+    joined = " ".join(line.strip() for line in lines)
+    ended = any(sign in line for line in lines[:-1] for sign in ("%", "//"))
+    sections = any(_SECTION.match(line) for line in lines[1:])
+    return tuple(lines) if ended or sections or len(joined) > LONGEST or not joined else (joined,)
 
 
 def _same(one: Expr | None, other: Expr | None) -> bool:

@@ -1,5 +1,6 @@
 """A system as a module of Python: its domains, data and charts, in the order of execution."""
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,6 +19,8 @@ from rovercheck.spec_model.lang.expr import Expr, Named, Var
 from rovercheck.spec_model.lang.system import Note, System, enabled_in
 from rovercheck.spec_model.lang.walk import children, nodes, structure
 
+_PLAIN = re.compile(r"[a-z ]+ of .*, |output of |the output ")
+"""What is said of data that the place of their declaration says already."""
 TYPES: Mapping[str, tuple[int, int]] = {
     f"{sign}INT{bits}": (0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
     for bits in (8, 16, 32)
@@ -141,7 +144,8 @@ class _Module:
                 yield ""
 
     def _variable(self, one: Var) -> Source:
-        more = [Keyword("hidden", "True")] if one.hidden else []
+        more = [] if not one.doc or _PLAIN.match(one.doc) else [Keyword("doc", quoted(one.doc))]
+        more += [Keyword("hidden", "True")] if one.hidden else []
         if one.domain == boolean and not one.init:
             return call(self._source.word("flag"), quoted(one.name), *more)
         domain = self._source.word("boolean") if one.domain == boolean else self._name_of(one.domain)
