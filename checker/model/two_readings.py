@@ -61,7 +61,7 @@ def compared_readings(lowered: LoweredModel, seconds: float, step: str = "", see
     random, end, steps = Random(seed), monotonic() + seconds, 0
     uses = uses_of(lowered)
     values = {
-        name: list(_interesting(var, uses.get(var.name, ((), False))[0]))
+        name: list(interesting(var, uses.get(var.name, ((), False))[0]))
         for name, var in lowered.inputs.items()
         if isinstance(var, Var)
     }
@@ -115,7 +115,7 @@ def _one_run(
     return None, STEPS
 
 
-def _interesting(var: Var, constants: Iterable[Fraction]) -> Iterator[float]:
+def interesting(var: Var, constants: Iterable[Fraction]) -> Iterator[float]:
     """The ends of a domain, and the values on both sides of each constant that it is compared with."""
     near = {var.domain.low, var.domain.high, var.init}
     resolution = var.sort.resolution if isinstance(var.sort, Num) else Fraction(1)
@@ -157,4 +157,4 @@ def rounding_note(lowered: LoweredModel, difference: ReadingDifference, given: C
     return f"Real numbers are exact: the interpreter, which rounds them, differs {difference}."
 
 
-__all__ = ["ReadingDifference", "Readings", "compared_readings", "rounding_note"]
+__all__ = ["ReadingDifference", "Readings", "compared_readings", "interesting", "rounding_note"]

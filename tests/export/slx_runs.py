@@ -4,17 +4,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
+from rovercheck.checker.commands.import_.written import written_model
+from rovercheck.checker.drawn.charts.system import charts_of_model
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
+from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
+from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.explore.by_hand.admissible_inputs import drawn
 from rovercheck.checker.export.slx import simulink_of
+from rovercheck.checker.model.load import load
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart, Component, Enabled
 from rovercheck.spec_model.lang.chart import Path as Path_
 from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.interpret import Interpreter
@@ -84,18 +91,21 @@ def _in_subsystems(choices: SeededChoices, parts: Sequence[Component], source: S
     return found
 
 
-def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> int:
+def differences(system: System, folder: Path, seed: int, rows: int = ROWS, written: bool = False) -> int:
     """Run the system and what is read of its file, in both readings; the answer is how many rows were alike.
 
-    Inputs are as the system assumes them.  Raises ``AssertionError`` where they differ, ``ModelError`` for a
-    system that is refused.
+    Inputs are as the system assumes them; ``written``: what is read is written as charts in Python and
+    loaded, too.  Raises ``AssertionError`` where they differ, ``ModelError`` for a system that is refused.
     """
     made = simulink_of(system)
     path = folder / "random.slx"
     made.save(path)
     model, said = read_model(path), read_domains(domains_path(path))
     lowered = lowered_model(model, path.name, said.domains)
-    runs = LoweredRun(lowered), ModelRunner(model)
+    direct = ModelRunner(model)
+    runs: list[LoweredRun | ModelRunner] = [LoweredRun(lowered), direct]
+    if written:
+        runs.append(LoweredRun(written_again(lowered, path)))
     random, inputs = Random(seed), AssumedInputs(system)
     now = inputs.first(random)
     frozen = {v.name: now[v.name] for v in system.frozen}
@@ -117,7 +127,7 @@ def differences(system: System, folder: Path, seed: int, rows: int = ROWS) -> in
             assert not unlike, f"seed {seed}, row {row}, {type(run).__name__}: {given} gives {unlike}"
         active = {
             n.path.removeprefix(f"{m.chart.drawn.path}/").replace("/", ".")
-            for m in runs[1].machines
+            for m in direct.machines
             for n in m.active
             if n.parent is not None
         }
@@ -151,6 +161,19 @@ class AssumedInputs:
         if found is None:
             raise LookupError(f"{system.name}: no inputs are found as it assumes them")
         return found
+
+
+def written_again(lowered: LoweredModel, path: Path) -> LoweredModel:
+    """A model as it is loaded from the charts in Python that are written of it."""
+    try:
+        drawn = charts_of_model(lowered, path.name)
+    except NotLowered as error:
+        raise ModelError(str(error)) from error
+    with TemporaryDirectory(dir=path.parent) as folder:
+        for name, text in written_model(path, drawn).files.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        system = load(Path(folder)).systems[drawn.model.system.name]
+    return replace(drawn.model, system=system)
 
 
 def _holds(chart: Chart, path: Path_, at: Mapping[str, int]) -> int:

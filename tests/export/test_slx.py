@@ -110,6 +110,12 @@ def test_steps_that_are_no_decimals_are_written_as_fractions(tmp_path: Path) -> 
     assert read_domains(tmp_path / "random.domains.toml").domains["axis"] == axis.domain
 
 
+@pytest.mark.parametrize("seed", [3, 5, 7, 12])
+def test_a_random_system_written_in_python_again_does_the_same(tmp_path: Path, seed: int) -> None:
+    """Out of the charts into a file of Simulink, and out of that into charts again."""
+    assert differences(random_system(seed), tmp_path, seed, written=True) == ROWS
+
+
 def test_the_verb_writes_a_model_that_can_be_read(tmp_path: Path) -> None:
     assert run(["export", "--system", "receiver", "--format", "slx", "-o", str(tmp_path)]) == 0
     assert read_simulink(tmp_path / "receiver.slx")["sender_position"] is not None

@@ -20,7 +20,10 @@ from rovercheck.spec_model.lang.lower import lower
 def import_machine(path: Path, others: bool, *, as_json: bool) -> Exit:
     """Read a machine, and say what is in it.  Raises ``ModelError`` for one that cannot be read."""
     if others:
-        raise UsageError("--beside, --compare and --strict are for models of Simulink.")
+        raise UsageError(
+            "--beside, --compare, --strict and --write are for models of Simulink. A machine is edited in "
+            "its own file: `--model FILE` works with it."
+        )
     machine = machine_in(path)
     report = _lowered(path, machine)
     code = Exit.INCONCLUSIVE if report.refused else Exit.AS_EXPECTED

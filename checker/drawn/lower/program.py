@@ -21,6 +21,7 @@ from rovercheck.spec_model.lang.domain import Bool, Domain, Num, boolean, common
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_of, rescale
 from rovercheck.spec_model.lang.programmed import FAULT, without
 from rovercheck.spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.walk import variables
 
 MOST_STATEMENTS = 100_000
 
@@ -290,13 +291,19 @@ class ProgramWriter:
         self._grow(1)
         return SymbolicScalar(value.kind, var)
 
-    def written(self) -> tuple[Statement, ...]:
-        """All statements, without assignments to temporaries that nothing reads."""
+    def fresh(self, temporaries: Mapping[str, Var]) -> "ProgramWriter":
+        """One for another text of the same chart: its further temporaries have other names."""
+        made = ProgramWriter(self.name, self._most)
+        made._numbers, made.temporaries = self._numbers, dict(temporaries)
+        return made
+
+    def written(self, *after: Expr) -> tuple[Statement, ...]:
+        """All statements, without assignments to temporaries that nothing reads, nor a formula after them."""
         self._close()
         made, before = tuple(self._rows), -1
         while before != len(self.temporaries):
             before = len(self.temporaries)
-            needed = reads(made)
+            needed = reads(made) | variables(*after)
             unread = {name for name in self.temporaries if name not in needed}
             made = without(made, unread)
             for name in unread:

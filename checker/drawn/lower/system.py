@@ -92,7 +92,7 @@ class SystemWriter(CalledBlockWriter):
         return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
 
     def _inner(self, name: str, system: DrawnSystem) -> "SystemWriter":
-        return SystemWriter(system, self.context, f"{self._path}_{name}".strip("_"))
+        return type(self)(system, self.context, f"{self._path}_{name}".strip("_"))
 
     def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         for one in system.blocks:
