@@ -57,7 +57,7 @@ LOWERING = (
 PACKAGES = (
     "tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
-    "tests/drawn/test_simulink_functions.py",
+    "tests/simulink/test_by_hand.py", "tests/drawn/test_simulink_functions.py",
 )  # fmt: skip
 READINGS: Mapping[str, Reading] = {
     "interpret": Reading(Path("checker/drawn/interpret"), INTERPRETER),

@@ -4,26 +4,30 @@
     PYTHONPATH=FOLDER python -m benchmarks.scxml_runs [COUNT] [FIRST]
 
 Each is run for 15 events in the interpreter by the standard's algorithm and there; what is active and the
-data are compared after each.  The exit code is 1 if one of them differs.
+data are compared after each.  Where they differ, the machine is run again with ``benchmarks.scxml_mends``, in
+which four defects of python-statemachine 3.2.2 are mended, and those that make the difference are told.
+The exit code is 1 if one differs, or has no end, even so.
 
-Some differ.  Of seed 27 the steps were followed by hand, and ours are those of the standard; there
-python-statemachine 3.2.2 seems to run the content of a transition to a history twice.  Whose fault the others
-are is not settled.
+Of the first 300 machines 9 differ and 2 have no end there: 27, 118 and 170 for the content before a history,
+113, 159, 213, 250, 274 and 291 for the numbers of states, 258 for the numbers and the order of states, 222
+for the content and the numbers; 604 is the first for the past.  With the mends all are alike.
 """
 
 import logging
 import signal
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import redirect_stdout
 from importlib import import_module
 from io import StringIO
+from itertools import combinations
 from random import Random
 from types import FrameType
 from typing import Any, NoReturn
 from xml.etree import ElementTree
 
+from benchmarks.scxml_mends import MENDS, mended
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.scxml.interpret import MachineRunner
 from rovercheck.checker.scxml.reader import machine_of
@@ -108,13 +112,26 @@ def difference(text: str, machine: StateMachine, events: Sequence[str]) -> str:
             ours.step(event)
         except DrawnFault:
             return ""
-        if theirs is None:
-            theirs = Witness(in_python(text, machine))
-        theirs.step(event)
+        try:
+            if theirs is None:
+                theirs = Witness(in_python(text, machine))
+            theirs.step(event)
+        except Endless:
+            return f"step {number} ({event}) has no end there"
         active, (found, data) = {one.id for one in ours.active}, theirs.seen()
         if (found, data) != (active, ours.data):
             return f"step {number} ({event}): {sorted(active)} {ours.data}, {sorted(found)} {data}"
     return ""
+
+
+def cause(differs: Callable[[], str]) -> Collection[str]:
+    """The fewest mends with which nothing differs; empty if all of them together do not help."""
+    for number in range(1, len(MENDS) + 1):
+        for some in combinations(MENDS, number):
+            with mended(some):
+                if not differs():
+                    return some
+    return ()
 
 
 def _endless(_number: int, _frame: FrameType | None) -> NoReturn:
@@ -136,13 +153,12 @@ def main(count: int = 300, first: int = 0) -> int:
             told["refused there"] += 1
             print(f"{seed}: {str(error)[:200]}", flush=True)
             continue
-        except Endless:
-            told["endless there"] += 1
-            print(f"{seed}: an event has no end there", flush=True)
+        if not found:
+            told["alike"] += 1
             continue
-        told["different" if found else "alike"] += 1
-        if found:
-            print(f"{seed}: {found}", flush=True)
+        defects = cause(lambda: difference(text, machine, events))  # noqa: B023
+        told["with a known defect there" if defects else "different"] += 1
+        print(f"{seed}: {found}", *(f"\n    {MENDS[one]}" for one in defects), sep="", flush=True)
     print(", ".join(f"{number} {word}" for word, number in told.items()))
     return 1 if told["different"] else 0
 

@@ -2,9 +2,9 @@
 
     python -m benchmarks.slx_verdicts [--seconds SECONDS] [--within MINUTES] [SYSTEM ...]
 
-Every system without enabled subsystems is written, and its properties are decided on what is read from
-its file.  Each gets as many seconds; after as many minutes no further system is begun.  The exit code is 1
-if a verdict differs.
+Every system is written, and its properties are decided on what is read from its file.  Each gets as many
+seconds; after as many minutes no further system is begun.  A line for each says what came of it, after how
+many seconds, and why nothing did.  The exit code is 1 if a verdict differs.
 """
 
 import argparse
@@ -19,52 +19,94 @@ from time import monotonic
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.export.slx import SlxModel, simulink_of
-from rovercheck.checker.model.drawn import SimulinkModel, read_simulink
+from rovercheck.checker.model.drawn import read_simulink
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.forms import Property
-from rovercheck.spec_model.lang.action import Assign
-from rovercheck.spec_model.lang.chart import NOWHERE, Block, Chart
+from rovercheck.spec_model.lang.chart import NOWHERE, Chart
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var, ite
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, any_of
 from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.rover import systems
 
-PREFIX = "slx_"
-"""What names in Simulink begin with, so that they stand beside those of the rover."""
 
-
-def read_again(system: System, folder: Path) -> System:
-    """The system of the file that is written of it, with the variables of the rover beside those of the file.
+class ReadAgain(Specialiser):
+    """The system ``read`` of the file written of one of the rover; its properties in words of the file.
 
     One with more runs than the rover stands for itself: it names no other in which a run is looked for.
     """
-    made = simulink_of(system, PREFIX)
-    path = folder / f"{made.name}.slx"
-    made.save(path)
-    model = read_simulink(path)
-    known = {one.name: one for one in (*system.inputs.values(), *system.frozen, *system.written.values())}
-    inside = {name: _as(var, _of_file(model, made.names[name])) for name, var in known.items()}
-    given = {name: _as(known[name], _of_file(model, own)) for name, own in made.inputs.items()}
-    copies = [Assign(var, inside[name]) for name, var in known.items()]
-    for chart in system.charts:
-        copies += _places(chart, made, model)
-    begun = [given[one.name] for one in system.frozen]
-    return replace(
-        model.system, name=system.name, place=system.place, step_ms=system.step_ms, tick_ms=system.tick_ms,
-        components=(*model.system.components, Block("as specified", copies)),
-        assume=_instead(system.assumed, given), under=system.under,
-        frozen=tuple(one for one in begun if isinstance(one, Var)),
-        elapsed=None if system.elapsed is None else _var(given[system.elapsed.name]),
-    )  # fmt: skip
+
+    def __init__(self, system: System, folder: Path) -> None:
+        super().__init__({})
+        made = simulink_of(system)
+        path = folder / f"{made.name}.slx"
+        made.save(path)
+        self._model = read_simulink(path)
+        known = {one.name: one for one in (*system.inputs.values(), *system.frozen, *system.written.values())}
+        self._inside = {name: _as(var, self._model[made.names[name]]) for name, var in known.items()}
+        given = {name: _as(known[name], self._model[own]) for name, own in made.inputs.items()}
+        self._inside |= {name: expr for name, expr in given.items() if name in system.inputs}
+        self._active = dict(self._places(system, made))
+        self.read = replace(
+            self._model.system, name=system.name, place=system.place, step_ms=system.step_ms,
+            tick_ms=system.tick_ms, assume=_Given(given, self).expr(system.assumed), under=system.under,
+            frozen=tuple(one for v in system.frozen if isinstance(one := given[v.name], Var)),
+            elapsed=None if system.elapsed is None else _var(given[system.elapsed.name]),
+        )  # fmt: skip
+
+    def property(self, one: Property) -> Property:
+        """A property of the rover as one of the file."""
+        return replace(one, form=self.parts_of(one.form))
+
+    def _places(self, system: System, made: SlxModel) -> Iterator[tuple[tuple[str, int], Expr]]:
+        """The conditions that states are active, by the variables that say it in the rover."""
+        charts = {one.name: one for one in self._model.system.charts}
+        for chart in system.charts:
+            whole = charts[made.charts[chart.name]]
+
+            def active(*path: str, own: Chart = chart, drawn: Chart = whole) -> Expr:
+                return drawn.active_path(tuple(made.states[own.name, path].split(".")))
+
+            for path, state in chart.states.items():
+                if state.states and not state.parallel:
+                    place = chart.location(path)
+                    inside = [active(*path, child.name) for child in state.states]
+                    yield (place.name, place.domain.raw(NOWHERE)), ~any_of(*inside)
+                    for child, condition in zip(state.states, inside, strict=True):
+                        yield (place.name, place.domain.raw(child.name)), condition
+            for word, condition in (("yes", active()), ("no", ~active())):
+                yield (chart.entered.name, chart.entered.domain.raw(word)), condition
+
+    def _expr(self, expr: Expr) -> Expr:
+        if isinstance(expr, Apply) and expr.op in (Op.EQ, Op.NE):
+            for one, other in (expr.args, expr.args[::-1]):
+                if isinstance(one, Var) and isinstance(other, Const):
+                    found = self._active.get((one.name, other.value))
+                    if found is not None:
+                        return found if expr.op is Op.EQ else ~found
+        if isinstance(expr, Var):
+            assert expr.name in self._inside, f"{expr.name} is not in the file"
+            return self._inside[expr.name]
+        return super()._expr(expr)
 
 
-def _of_file(model: SimulinkModel, name: str) -> Expr:
-    return model[name]
+class _Given(Specialiser):
+    """What is assumed of the inputs of the rover as a condition on those of the file."""
+
+    def __init__(self, given: Mapping[str, Expr], inside: ReadAgain) -> None:
+        super().__init__({})
+        self._given, self._known = given, inside
+
+    def _expr(self, expr: Expr) -> Expr:
+        if isinstance(expr, Var):
+            return self._given[expr.name] if expr.name in self._given else self._known.expr(expr)
+        return super()._expr(expr)
 
 
 def _var(expr: Expr) -> Var:
@@ -73,48 +115,16 @@ def _var(expr: Expr) -> Var:
 
 
 def _as(var: Var, expr: Expr) -> Expr:
-    """What is read of a file, in the steps that a variable of the rover has."""
+    """What is read of a file, in the steps that a variable of the rover has, and beginning as it does."""
     if not isinstance(var.sort, Num) or not isinstance(expr.sort, Num):
-        return expr
+        return replace(expr, init=var.init) if isinstance(expr, Var) else expr
     own, new = expr.sort.resolution, var.sort.resolution
     if own == new:
-        return expr
+        return replace(expr, init=var.init) if isinstance(expr, Var) else expr
     if (own / new).denominator == 1:
         return Apply(Op.SCALE, (expr, Const(int(own / new), Num())), var.sort)
     assert (new / own).denominator == 1, f"{var.name}: steps of {own} and {new}"
     return Apply(Op.DIV, (expr, Const(int(new / own), Num())), var.sort)
-
-
-def _places(chart: Chart, made: SlxModel, model: SimulinkModel) -> Iterator[Assign]:
-    """Where a chart of the rover is, by the states that are active in the file."""
-    [whole] = model.system.charts
-
-    def active(path: tuple[str, ...]) -> Expr:
-        return whole.active_path(tuple(made.states[chart.name, path].split(".")))
-
-    for path, state in chart.states.items():
-        if not state.states or state.parallel:
-            continue
-        place = chart.location(path)
-        value: Expr = Const(place.domain.raw(NOWHERE), place.sort)
-        for child in reversed(state.states):
-            here = Const(place.domain.raw(child.name), place.sort)
-            value = ite(active((*path, child.name)), here, value)
-        yield Assign(place, value)
-    entered = chart.entered
-    yes, no = (Const(entered.domain.raw(one), entered.sort) for one in ("yes", "no"))
-    yield Assign(entered, ite(active(()), yes, no))
-
-
-def _instead(expr: Expr, known: Mapping[str, Expr]) -> Expr:
-    match expr:
-        case Var(name):
-            return known.get(name, expr)
-        case Named(name, body):
-            return Named(name, _instead(body, known))
-        case Apply(op, args, sort):
-            return Apply(op, tuple(_instead(one, known) for one in args), sort)
-    return expr
 
 
 def main(arguments: list[str]) -> int:
@@ -145,34 +155,34 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
     """How many verdicts of the properties of one system are the same, differ, or are not known."""
     told = Counter[str]()
     try:
-        again = read_again(system, folder)
+        again = ReadAgain(system, folder)
+        asked = [again.property(one) for one in properties]
     except ModelError as error:
-        kind = "enabled subsystem" if "executes only while" in str(error) else "refused"
-        print(
-            f"{system.name}: {str(error).splitlines()[0][:300]}"
-            if kind == "refused"
-            else f"{system.name}: {kind}"
-        )
-        return Counter({kind: len(properties)})
+        print(f"{system.name}: {str(error).splitlines()[0][:300]}")
+        return Counter({"refused": len(properties)})
     search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
+    since = monotonic()
     try:
-        found = list(results(properties, {system.name: again}, search, quiet=True))
+        for result in results(asked, {system.name: again.read}, search, quiet=True):
+            word = _compared(result, "read again" if system.concrete else "")
+            told[word] += 1
+            said = f"{result.property.id:24} {system.name:32} {word:12} {result.verdict.word:10}"
+            why = result.verdict.reason[:90] if isinstance(result.verdict, Unknown) else ""
+            print(f"{said} {monotonic() - since:7.1f} s  {why}".rstrip(), flush=True)
+            since = monotonic()
     except ModelError as error:
         if len(properties) > 1:
-            return sum((_decided(system, [one], folder, seconds) for one in properties), told)
-        print(f"{properties[0].id}: {error}", flush=True)
+            return sum((_decided(system, [one], folder, seconds) for one in properties), Counter())
+        print(f"{properties[0].id:24} {system.name:32} not asked: {str(error).splitlines()[0]}", flush=True)
         return Counter({"not asked": 1})
-    for result in found:
-        apart = "read again" if system.concrete else ""  # the kept run is then one of another system
-        one = CheckedProperty(result, expected(result.property.id), apart)
-        if isinstance(result.verdict, Unknown):
-            told["not decided"] += 1
-        elif one.as_expected:
-            told["same"] += 1
-        else:
-            told["differs"] += 1
-            print(f"{result.property.id} on {system.name}: {one.word}", flush=True)
     return told
+
+
+def _compared(result: Result, apart: str) -> str:
+    """Whether a verdict is that of the rover's charts; ``apart``: its kept run is one of another system."""
+    if isinstance(result.verdict, Unknown):
+        return "not decided"
+    return "same" if CheckedProperty(result, expected(result.property.id), apart).as_expected else "differs"
 
 
 def _summary(told: Counter[str]) -> str:

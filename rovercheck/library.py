@@ -28,7 +28,7 @@ from rovercheck.checker.model import load as files
 from rovercheck.checker.model.drawn import SimulinkModel, simulink_model
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import model
-from rovercheck.checker.model.machine import scxml_model
+from rovercheck.checker.model.machine import scxml_model, xstate_model
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.verdict_text import evidence
@@ -281,4 +281,5 @@ __all__ = [
     "scxml_model",
     "simulink_model",
     "trace",
+    "xstate_model",
 ]

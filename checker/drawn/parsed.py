@@ -249,6 +249,7 @@ class _Parser:
                 )
             ends.append(end)
         one.source, one.target = ends
+        self._hold(one)
         match one.source:
             case None:
                 one.holder.defaults.append(one)
@@ -256,6 +257,16 @@ class _Parser:
                 one.source.outgoing.append(one)
             case StateNode():
                 (one.source.inner if one.drawn.inner else one.source.outer).append(one)
+
+    @staticmethod
+    def _hold(one: TransitionNode) -> None:
+        """What holds a transition holds its ends, too: else the nearest state that does."""
+        ends = [end.holder if isinstance(end, JunctionNode) else end for end in (one.source, one.target)]
+        while not all(end is None or one.holder in end.lineage() for end in ends):
+            if one.source is None or one.drawn.inner or one.holder.parent is None:
+                place = "a default transition" if one.source is None else "an inner transition"
+                raise ModelError(f"{one}: {place} ends in the state that it stands in. Save the model again.")
+            one.holder = one.holder.parent
 
     def _function(self, holder: StateNode, state: DrawnState) -> None:
         """A function by its name; its flow chart is a level without states."""

@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member,
 from rovercheck.checker.drawn.grammar.trees import expressions_of
 from rovercheck.checker.drawn.interpret.clock import DURATIONS, LIMITS, UNITS
 from rovercheck.checker.drawn.interpret.functions import BUILTINS, WITHOUT_EFFECT
+from rovercheck.checker.drawn.interpret.matrix_functions import FURTHER, TYPED
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnEnumeration
 from rovercheck.checker.drawn.refused import DrawingNote, label_of
@@ -15,8 +16,12 @@ from rovercheck.spec_model.lang.errors import did_you_mean
 
 COUNTS = ("temporalCount", "elapsed")
 CHANGES = ("hasChanged", "hasChangedTo", "hasChangedFrom", "rising", "falling", "crossing")
-OF_STATES = ("in", "send", "enter", "exit")
+OF_STATES = ("in", "send")
 """What is followed by names of states and events."""
+WAKES = ("tick", "wakeup")
+"""The event of a step itself."""
+IMPLICIT = ("enter", "en", "exit", "ex", "change", "chg")
+"""Events that no action sends."""
 OUTSIDE = ("coder", "ml")
 
 
@@ -61,13 +66,18 @@ class _Finder:
     ) -> Iterator[DrawingNote]:
         """The notes of the texts of one element, in a state whose names they use."""
         known = {*local, *_assigned(texts, loops_only=True), *self.members, *self.events}
-        known |= {*BUILTINS, *WITHOUT_EFFECT, *self.enumerations}
+        known |= {*WAKES, *BUILTINS, *FURTHER, *TYPED, *WITHOUT_EFFECT, *self.enumerations}
         for around in node.lineage():
             known |= around.data.keys() | around.functions.keys()
         found = dict.fromkeys(name for text in expressions_of(*texts) for name in self._unknown(text, known))
         for name in found:
             near = did_you_mean(name, self._own(known))
             text = f"{name} is no datum, event, function or member that is known here. {near}".strip()
+            if name in IMPLICIT:
+                text = (
+                    f"{name}(...) is an implicit event, which has no meaning here. Send an event of the "
+                    "chart where the state is entered or left, or the datum is written."
+                )
             yield DrawingNote("refused", node.path, what, text, self.chart.drawn.part, ssid, line)
 
     def _unknown(self, expression: Expression, known: set[str]) -> Iterator[str]:
@@ -82,9 +92,11 @@ class _Finder:
                 pass  # an event of a state
             case Applied(Name(name)) if name in OF_STATES and name not in self._own(known):
                 pass
+            case Applied(Name(name)) if name in IMPLICIT and name not in self._own(known):
+                yield name
             case Applied(Name(name), (limit, unit)) if name in LIMITS:
                 yield from self._unknown(limit, known)
-                if not isinstance(unit, Name) or unit.name not in (*UNITS, "tick"):
+                if not isinstance(unit, Name) or unit.name not in (*UNITS, *WAKES):
                     yield from self._unknown(unit, known)
             case Applied(Name(name), arguments) if name in COUNTS:
                 pass
@@ -103,7 +115,7 @@ class _Finder:
 
     @staticmethod
     def _own(known: set[str]) -> set[str]:
-        return known - BUILTINS.keys() - WITHOUT_EFFECT
+        return known - BUILTINS.keys() - FURTHER.keys() - {*TYPED, *WITHOUT_EFFECT}
 
 
 def _assigned(thing: object, loops_only: bool = False) -> Iterator[str]:

@@ -22,7 +22,9 @@ SIMULINK = ".slx"
 """What the name of a model of Simulink ends with."""
 SCXML = ".scxml"
 """What the name of a machine in SCXML ends with."""
-FOREIGN = (SIMULINK, SCXML)
+XSTATE = ".json"
+"""What the name of a machine of XState ends with."""
+FOREIGN = (SIMULINK, SCXML, XSTATE)
 EXAMPLE = "`rovercheck init FOLDER` writes an example."
 
 
@@ -84,7 +86,7 @@ class Model:
         if not self.properties:
             forms = "Write one with a form of rovercheck, such as always(...)"
             if self.path is not None and self.path.suffix in FOREIGN:
-                page = "simulink" if self.path.suffix == SIMULINK else "scxml"
+                page = {SIMULINK: "simulink", SCXML: "scxml"}.get(self.path.suffix, "xstate")
                 forms += f", in {self.path.stem}_properties.py beside it (docs/{page}.md)"
             raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
         return self.properties

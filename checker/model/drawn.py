@@ -12,7 +12,7 @@ from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.model import SIMULINK, ForeignModel, beside_caller
-from rovercheck.checker.model.two_readings import compared_readings
+from rovercheck.checker.model.two_readings import compared_readings, rounding_note
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
@@ -149,15 +149,13 @@ def _beside(path: Path, lowered: LoweredModel, said: DomainsFile) -> Iterator[No
     found = compared_readings(lowered, SECONDS, said.step).difference
     if found is None:
         return
-    if found.said and said.domains.keys() - lowered.inputs.keys():
-        yield Note(f"In a random run {found}.", "domains as given")
-        return
-    if found.said or not lowered.real:
+    note = rounding_note(lowered, found, said.domains)
+    if not note:
         raise ModelError(
             f"{path.name}: the two ways in which it is read differ {found}. This is an error of rovercheck: "
             "please report it, with the file."
         )
-    yield Note(f"Real numbers are exact: the interpreter, which rounds them, differs {found}.", "exact reals")
+    yield Note(note, "domains as given" if found.said else "exact reals")
 
 
 __all__ = ["SimulinkModel", "lowered_simulink", "read_simulink", "simulink_model"]

@@ -20,7 +20,7 @@ _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterabl
 _OURS = Path(__file__).parents[2]
 _PACKAGES = {"site-packages", "dist-packages"}
 """Folders of an environment, which may lie in that of the model."""
-_MODELS = "a model is a .py file, a folder of them, a .slx or a .scxml file"
+_MODELS = "a model is a .py file, a folder of them, a .slx, .scxml or .json file"
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 

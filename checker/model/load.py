@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from rovercheck.checker.model import EXAMPLE, FOREIGN, SCXML, ForeignModel, Model, shown
+from rovercheck.checker.model import EXAMPLE, FOREIGN, SCXML, XSTATE, ForeignModel, Model, shown
 from rovercheck.checker.model.checks import (
     check_portable,
     concrete_faults,
@@ -69,7 +69,7 @@ def load(path: Path) -> Model:
 
 def _drawn(path: Path) -> ForeignModel:
     """A model of another tool: what reads it is loaded only then."""
-    if path.suffix == SCXML:
+    if path.suffix in (SCXML, XSTATE):
         from rovercheck.checker.model.machine import read_machine
 
         return read_machine(path)

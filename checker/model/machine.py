@@ -1,4 +1,4 @@
-"""A machine in SCXML as a model to check: its system, and the words in which properties speak of it."""
+"""A machine of SCXML or XState as a model to check: its system, and the words of its properties."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -9,11 +9,14 @@ from time import monotonic
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
-from rovercheck.checker.model import SCXML, ForeignModel, beside_caller
+from rovercheck.checker.model import SCXML, XSTATE, ForeignModel, beside_caller
 from rovercheck.checker.scxml.interpret import MachineRunner
 from rovercheck.checker.scxml.reader import read_scxml
 from rovercheck.checker.scxml.records import StateMachine
 from rovercheck.checker.scxml.system import LoweredMachine, lowered_machine
+from rovercheck.checker.scxml.xstate.bindings import bindings_path
+from rovercheck.checker.scxml.xstate.reader import read_xstate
+from rovercheck.checker.scxml.xstate.runner import runner_of
 from rovercheck.spec_model.lang.domain import Domain, Num
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -28,8 +31,8 @@ RUNS, STEPS = 20, 50
 
 
 @dataclass(frozen=True)
-class ScxmlModel(ForeignModel):
-    """A machine in SCXML.  ``model["motor"]`` is a datum, ``model["event"]`` the event of a step."""
+class MachineModel(ForeignModel):
+    """A machine.  ``model["motor"]`` is a datum, ``model["event"]`` the event of a step."""
 
     path: Path
     lowered: LoweredMachine
@@ -50,18 +53,32 @@ class ScxmlModel(ForeignModel):
             raise ModelError(f"{self.path.name} has no datum {name!r}. {did_you_mean(name, self.names)}")
         return self.names[name]
 
+    def guard(self, name: str) -> Expr:
+        """Whether a guard of XState that has no binding holds in a step.  Raises ``ModelError``."""
+        return self._one_of(self.lowered.guards, name, "guard without a binding")
+
+    def ran(self, action: str) -> Expr:
+        """Whether an action of XState that has no binding ran in the last step.  Raises ``ModelError``."""
+        return self._one_of(self.lowered.ran, action, "action without a binding")
+
+    def _one_of(self, known: Mapping[str, Expr], name: str, what: str) -> Expr:
+        if name not in known:
+            raise ModelError(f"{self.path.name} has no {what} {name!r}. {did_you_mean(name, known)}")
+        return known[name]
+
     def active(self, *states: str) -> Expr:
         """The condition that one of some states is active, by their ids.  Raises ``ModelError``."""
         return any_of(*(self._active(one) for one in states))
 
     def _active(self, id: str) -> Expr:
-        known = {one.id: one for one in self.lowered.machine.states if one.kind != "history"}
+        states = [one for one in self.lowered.machine.states if one.kind != "history"]
+        known = {name: one for one in states for name in filter(None, (one.known_as, one.id))}
         if id not in known:
             raise ModelError(f"{self.path.name} has no state {id!r}. {did_you_mean(id, known)}")
         return self.system.charts[0].active_path(self.lowered.view.paths[known[id]])
 
 
-def scxml_model(path: str | Path) -> ScxmlModel:
+def scxml_model(path: str | Path) -> MachineModel:
     """The machine in a file ``.scxml``, named from the folder of the file that asks for it.
 
     Domains of data are read from ``NAME.domains.toml`` beside it.  Raises ``ModelError`` for what cannot be
@@ -70,21 +87,36 @@ def scxml_model(path: str | Path) -> ScxmlModel:
     return read_machine(beside_caller(path, here(__name__)))
 
 
-def read_machine(path: Path) -> ScxmlModel:
+def xstate_model(path: str | Path) -> MachineModel:
+    """The machine of XState in a file ``.json``, its ``machine.config``.
+
+    It is named from the folder of the file that asks for it.  What guards and actions mean is read from
+    ``NAME.bindings.toml`` beside it, domains of data from ``NAME.domains.toml``.  Raises ``ModelError`` for
+    what cannot be read, or has no meaning here.
+    """
+    return read_machine(beside_caller(path, here(__name__)))
+
+
+def read_machine(path: Path) -> MachineModel:
     """The same of a path as it stands; read once as long as nothing of it changes."""
     if not path.exists():
-        raise ModelError(f"There is no {path}; name a machine, a file {SCXML}.")
+        raise ModelError(f"There is no {path}; name a machine, a file {SCXML} or {XSTATE}.")
     whole = path.resolve()
-    files = (whole, domains_path(whole))
+    files = (whole, domains_path(whole), bindings_path(whole))
     return _read(whole, tuple((one, one.stat().st_mtime_ns if one.exists() else 0) for one in files))
 
 
 @lru_cache(maxsize=8)
-def _read(path: Path, _: tuple[tuple[Path, int], ...]) -> ScxmlModel:
-    return lowered_scxml(path, read_scxml(path))
+def _read(path: Path, _: tuple[tuple[Path, int], ...]) -> MachineModel:
+    return machine_model(path, machine_in(path))
 
 
-def lowered_scxml(path: Path, machine: StateMachine) -> ScxmlModel:
+def machine_in(path: Path) -> StateMachine:
+    """What stands in a file, of either kind.  Raises ``ModelError`` for what cannot be read."""
+    return read_xstate(path) if path.suffix == XSTATE else read_scxml(path)
+
+
+def machine_model(path: Path, machine: StateMachine) -> MachineModel:
     """A machine that was read, with its domains.  Raises ``ModelError`` for what has no meaning here."""
     said = read_domains(domains_path(path))
     for name in said.domains.keys() - machine.data.keys():
@@ -92,13 +124,13 @@ def lowered_scxml(path: Path, machine: StateMachine) -> ScxmlModel:
     for name in said.domains:
         _fitting(said.path, name, said.domains[name], machine)
     try:
-        lowered = lowered_machine(machine, str(path), said.domains)
+        made = lowered_machine(machine, str(path), said.domains)
     except RecursionError:
         raise ModelError(f"{path.name}: states or actions are nested too deeply.") from None
     except ModelError as error:
         raise ModelError(f"{path.name}: {error}") from error
-    notes = list(lowered.system.notes)
-    difference, limited, _ = compared(lowered)
+    notes = list(made.system.notes)
+    difference, limited, _ = compared(made)
     if difference and not (limited and said.domains):
         raise ModelError(
             f"{path.name}: the two ways in which it is read differ {difference}. This is an error of "
@@ -106,8 +138,8 @@ def lowered_scxml(path: Path, machine: StateMachine) -> ScxmlModel:
         )
     if difference:
         notes.append(Note(f"In a random run {difference}.", "domains as given"))
-    system = replace(lowered.system, place=Place(str(path), 1), notes=tuple(notes))
-    return ScxmlModel(path, replace(lowered, system=system))
+    system = replace(made.system, place=Place(str(path), 1), notes=tuple(notes))
+    return MachineModel(path, replace(made, system=system))
 
 
 def _fitting(file: Path, name: str, domain: Domain, machine: StateMachine) -> None:
@@ -128,9 +160,10 @@ def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bo
     for run in range(RUNS):
         if run and monotonic() > end:
             break
-        direct, system = MachineRunner(lowered.machine), Interpreter(lowered.system)
+        direct, system = runner_of(lowered.machine), Interpreter(lowered.system)
         for tick in range(1, STEPS + 1):
-            found = _step(lowered, direct, system, random.choice(events))
+            guards = {one: random.random() < 0.5 for one in lowered.guards}
+            found = _step(lowered, direct, system, random.choice(events), guards)
             if found is None:
                 break
             steps += 1
@@ -142,16 +175,18 @@ def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bo
 
 
 def _step(
-    lowered: LoweredMachine, direct: MachineRunner, system: Interpreter, event: str
+    lowered: LoweredMachine, direct: MachineRunner, system: Interpreter, event: str, guards: dict[str, bool]
 ) -> tuple[str, bool] | None:
     """One step of both; nothing where neither gives it a meaning."""
     of_standard = of_system = ""
     try:
-        direct.step(event)
+        direct.step(event, guards)
     except DrawnFault as fault:
-        of_standard = f"the algorithm of the standard says: {fault}"
+        of_standard = f"the algorithm says: {fault}"
+    inputs = {lowered.guards[name].name: int(holds) for name, holds in guards.items()}
     try:
-        system.step({"event": lowered.event.domain.raw(event or "none")})
+        inputs["event"] = lowered.event.domain.raw(event or "none")
+        system.step({name: raw for name, raw in inputs.items() if name in lowered.system.inputs})
     except ModelError as error:
         of_system = f"the system says: {error}"
     if of_standard and of_system:
@@ -162,10 +197,23 @@ def _step(
     states = [one for one in lowered.machine.states if one.kind != "history"]
     other = {one.id for one in states if evaluate(chart.active_path(lowered.view.paths[one]), at)}
     told = [f"{id} is active in one of them" for id in sorted(other ^ {one.id for one in direct.active})]
+    told += [
+        f"{name} ran in one of them"
+        for name, var in lowered.ran.items()
+        if at[var.name] != (name in direct.ran)
+    ]
     for name, var in lowered.data.items():
         if at[name] != var.domain.raw(direct.data[name]):
             told.append(f"{name} is {direct.data[name]} and {at[name]}")
     return ", ".join(told), False
 
 
-__all__ = ["ScxmlModel", "compared", "lowered_scxml", "read_machine", "scxml_model"]
+__all__ = [
+    "MachineModel",
+    "compared",
+    "machine_in",
+    "machine_model",
+    "read_machine",
+    "scxml_model",
+    "xstate_model",
+]

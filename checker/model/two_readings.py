@@ -1,6 +1,6 @@
 """A model of Simulink run by both of its readings: the direct interpreter, and the system made of it."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
@@ -11,6 +11,7 @@ from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.drawn.lower.uses import uses_of
+from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Var
@@ -19,7 +20,9 @@ RUNS, STEPS = 20, 50
 LONGEST = 20
 """Steps for which inputs are held at most."""
 NEAR = 1e-9
-"""Relative difference up to which two real numbers count as one."""
+"""Relative difference up to which two real numbers count as one; absolute below 1, where digits cancel."""
+NEAR_IN_SINGLE = 1e-6
+"""The same where some are in single precision, which has seven digits."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class ReadingDifference:
     said: str = ""
 
     def __str__(self) -> str:
-        told = ", ".join(f"{name} is {one:g} and {other:g}" for name, (one, other) in self.values.items())
+        told = ", ".join(f"{name} is {_two(one, other)}" for name, (one, other) in self.values.items())
         fired = f", after {'; '.join(self.fired)}" if self.fired else ""
         return f"in tick {self.tick} {told or self.said}{fired}"
 
@@ -58,7 +61,7 @@ def compared_readings(lowered: LoweredModel, seconds: float, step: str = "", see
     random, end, steps = Random(seed), monotonic() + seconds, 0
     uses = uses_of(lowered)
     values = {
-        name: list(_interesting(var, uses.get(var.name, ((), False))[0]))
+        name: list(interesting(var, uses.get(var.name, ((), False))[0]))
         for name, var in lowered.inputs.items()
         if isinstance(var, Var)
     }
@@ -79,6 +82,7 @@ def _one_run(
         runner = ModelRunner(lowered.model, step)
     except DrawnFault as fault:
         raise ModelError(f"{lowered.model.name}: {fault}.") from fault
+    near = _nearness(lowered.model)
     system, run = LoweredRun(lowered), list[Mapping[str, float]]()
     given = {name: random.choice(some) for name, some in values.items()}
     left = dict.fromkeys(values, 0)
@@ -101,7 +105,9 @@ def _one_run(
         if len(faults) == 2:
             return None, tick
         wrong = {
-            n: (direct[n], other[n]) for n in direct.keys() & other.keys() if not _alike(direct[n], other[n])
+            n: (direct[n], other[n])
+            for n in direct.keys() & other.keys()
+            if not _alike(direct[n], other[n], near)
         }
         if wrong or faults:
             said = "; ".join(faults)
@@ -109,7 +115,7 @@ def _one_run(
     return None, STEPS
 
 
-def _interesting(var: Var, constants: Iterable[Fraction]) -> Iterator[float]:
+def interesting(var: Var, constants: Iterable[Fraction]) -> Iterator[float]:
     """The ends of a domain, and the values on both sides of each constant that it is compared with."""
     near = {var.domain.low, var.domain.high, var.init}
     resolution = var.sort.resolution if isinstance(var.sort, Num) else Fraction(1)
@@ -121,8 +127,34 @@ def _interesting(var: Var, constants: Iterable[Fraction]) -> Iterator[float]:
             yield float(raw * resolution)
 
 
-def _alike(one: float, other: float) -> bool:
-    return one == other or abs(one - other) <= NEAR * max(abs(one), abs(other))
+def _two(one: float, other: float) -> str:
+    """Two numbers, with as many digits as it takes to tell them apart."""
+    digits = next((n for n in (6, 9) if f"{one:.{n}g}" != f"{other:.{n}g}"), 17)
+    return f"{one:.{digits}g} and {other:.{digits}g}"
 
 
-__all__ = ["ReadingDifference", "Readings", "compared_readings"]
+def _nearness(model: DrawnModel) -> float:
+    """Relative difference up to which two real numbers of a model count as one."""
+    levels = (level for chart in model.charts for level in chart.content.every_level())
+    types = {one.type for level in levels for one in level.data}
+    types |= {element.type for bus in model.buses for element in bus.elements}
+    return NEAR_IN_SINGLE if "single" in types else NEAR
+
+
+def _alike(one: float, other: float, near: float) -> bool:
+    return one == other or abs(one - other) <= near * max(abs(one), abs(other), 1)
+
+
+def rounding_note(lowered: LoweredModel, difference: ReadingDifference, given: Collection[str]) -> str:
+    """What a difference says of the numbers of a model, if it need be no error; ``given`` have a domain.
+
+    The system does not round real numbers, and a datum may leave a domain that a user has given.
+    """
+    if difference.said:
+        return f"In a random run {difference}." if set(given) - lowered.inputs.keys() else ""
+    if not lowered.real:
+        return ""
+    return f"Real numbers are exact: the interpreter, which rounds them, differs {difference}."
+
+
+__all__ = ["ReadingDifference", "Readings", "compared_readings", "interesting", "rounding_note"]

@@ -4,6 +4,7 @@ from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.scxml.records import (
     Constant,
     DatumName,
+    FreeGuard,
     InState,
     MachineState,
     Operation,
@@ -22,6 +23,14 @@ class FormulaWriter:
         self, machine: StateMachine, view: MachineView, data: dict[str, Var], writer: ProgramWriter
     ) -> None:
         self.machine, self.view, self.data, self.writer = machine, view, data, writer
+        self.guards = {
+            one: Var(f"guard.{one}", boolean, 0, f"whether the guard {one} holds in a step")
+            for one in machine.guards
+        }
+        self.ran = {
+            one: Var(f"action.{one}", boolean, 0, f"whether the action {one} ran in the last step")
+            for one in machine.actions
+        }
         self.active: dict[MachineState, Var] = {
             one: writer.temporary(f"in {one.id} ", boolean) for one in machine.states if one.kind != "history"
         }
@@ -42,6 +51,8 @@ class FormulaWriter:
                 return self.data[name]
             case InState(id):
                 return self.active[self.machine.named[id]]
+            case FreeGuard(name):
+                return self.guards[name]
             case Operation(operator, operands):
                 return _applied(operator, [self.formula(inner) for inner in operands])
 

@@ -1,6 +1,6 @@
 """A machine at work, by the algorithm that the standard prints (appendix D), on numbers."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.scxml.records import (
@@ -13,9 +13,11 @@ from rovercheck.checker.scxml.records import (
     Constant,
     DatumName,
     Executable,
+    FreeGuard,
     InState,
     MachineState,
     MachineTransition,
+    NamedAction,
     Operation,
     RaiseEvent,
     ScxmlExpression,
@@ -36,7 +38,8 @@ class MachineRunner:
     """Runs a machine.  The first step enters it; each step takes one event, or lets time pass.
 
     ``active`` are the states that are active, ``data`` the values, ``fired`` the transitions of the last
-    step.  A step without a meaning raises ``DrawnFault``: an event that no queue holds, too many microsteps.
+    step, ``ran`` the actions in it that are known by name only.  A step without a meaning raises
+    ``DrawnFault``: an event that no queue holds, too many microsteps.
     """
 
     def __init__(self, machine: StateMachine) -> None:
@@ -44,18 +47,21 @@ class MachineRunner:
         self.data: dict[str, Value] = dict(machine.data)
         self.active: list[MachineState] = []
         self.fired: list[MachineTransition] = []
+        self.ran: set[str] = set()
+        self._guards: Mapping[str, bool] = {}
         self._past: dict[str, list[MachineState]] = {}
         self._internal: list[str] = []
         self._external: list[str] = []
         self._waiting: dict[int, int] = {}
         self._begun, self._running = False, True
 
-    def step(self, event: str = "") -> None:
+    def step(self, event: str = "", guards: Mapping[str, bool] | None = None) -> None:
         """One step: everything that follows from an event; an empty one lets time pass.
 
-        The first step enters the machine before it takes its event.
+        The first step enters the machine before it takes its event.  ``guards`` are those that are known by
+        name only, and hold in this step; the others do not.
         """
-        self.fired = []
+        self.fired, self.ran, self._guards = [], set(), guards or {}
         if not self._running:
             return
         begun, self._begun = self._begun, True
@@ -117,7 +123,7 @@ class MachineRunner:
             for one in state.transitions:
                 if event is None and one.events:
                     continue
-                if event is not None and not any(_matches(word, event) for word in one.events):
+                if event is not None and not any(self._asks(word, event) for word in one.events):
                     continue
                 if one.condition is None or self._value(one.condition):
                     return one
@@ -200,7 +206,8 @@ class MachineRunner:
             for target in self._effective(one):
                 entry.add_ancestors(target, domain)
         for state in sorted(entry.states, key=lambda one: one.number):
-            self.active.append(state)
+            if state not in self.active:  # a history may enter what was not left
+                self.active.append(state)
             self._handlers(state.on_entry)
             if state in entry.by_default and state.initial is not None:
                 self._run(state.initial.actions)
@@ -225,7 +232,10 @@ class MachineRunner:
         return state.kind == "parallel" and all(self._is_final(one) for one in state.children)
 
     def _exit_interpreter(self) -> None:
-        """The machine has ended: everything is left, and what was active stays to be seen."""
+        """The machine has ended: everything is left, and what was active stays to be seen.
+
+        Only a final state of the machine is active then, so that nothing sees whether it is removed.
+        """
         for state in sorted(self.active, key=lambda one: -one.number):
             self._handlers(state.on_exit)
         self._internal, self._external, self._waiting = [], [], {}
@@ -248,19 +258,40 @@ class MachineRunner:
                         raise DrawnFault(f"{event} is sent again (line {one.line}) before its delay is over")
                     self._waiting[number] = delay
                 case CancelEvent(id):
-                    for sent in self.machine.sends:
-                        if sent.id == id:
-                            self._waiting.pop(sent.number, None)
+                    self._cancel(id)
+                case NamedAction(name):
+                    self.ran.add(name)
                 case AssignDatum(name, value):
-                    self.data[name] = self._value(value)
+                    self._assign(name, self._value(value))
                 case Choose(branches):
                     for condition, inner in branches:
                         if condition is None or self._value(condition):
                             self._run(inner)
                             break
 
+    def _cancel(self, id: str) -> None:
+        for sent in self.machine.sends:
+            if sent.id == id:
+                self._waiting.pop(sent.number, None)
+
+    def _assign(self, name: str, value: Value) -> None:
+        self.data[name] = value
+
+    def _asks(self, word: str, event: str) -> bool:
+        """Whether a descriptor matches the name of an event."""
+        if word == "*":
+            return True
+        words, names = word.split("."), event.split(".")
+        return event != OTHER and words == names[: len(words)]
+
+    def _awaited(self, event: str) -> bool:
+        return any(
+            self._asks(word, event)
+            for state in self.machine.states for one in state.transitions for word in one.events
+        )  # fmt: skip
+
     def _push(self, queue: list[str], event: str) -> None:
-        if event not in self.machine.internal and not any(_waits(self.machine, event)):
+        if event not in self.machine.internal and not self._awaited(event):
             return
         if len(queue) == MOST_WAITING:
             raise DrawnFault(f"more than {MOST_WAITING} events wait at once")
@@ -274,6 +305,8 @@ class MachineRunner:
                 return self.data[name]
             case InState(id):
                 return any(state.id == id for state in self.active)
+            case FreeGuard(name):
+                return self._guards.get(name, False)
             case Operation(operator, operands):
                 return _OPERATORS[operator](*(self._value(inner) for inner in operands))
 
@@ -326,19 +359,6 @@ class _EntrySet:
             self._add(one)
             if one.kind == "parallel":
                 self._regions(one)
-
-
-def _matches(word: str, event: str) -> bool:
-    if word == "*":
-        return True
-    words, names = word.split("."), event.split(".")
-    return event != OTHER and words == names[: len(words)]
-
-
-def _waits(machine: StateMachine, event: str) -> Iterator[bool]:
-    for state in machine.states:
-        for one in state.transitions:
-            yield any(_matches(word, event) for word in one.events)
 
 
 __all__ = ["MachineRunner"]

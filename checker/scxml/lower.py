@@ -5,19 +5,13 @@ from functools import partial
 from itertools import pairwise
 
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.scxml.formulas import FormulaWriter
+from rovercheck.checker.scxml.actions import ActionWriter
 from rovercheck.checker.scxml.past import EntryPlan, domain_of, each_past, plan_of
 from rovercheck.checker.scxml.records import (
     MOST_MICROSTEPS,
     MOST_WAITING,
-    AssignDatum,
-    CancelEvent,
-    Choose,
-    Executable,
     MachineState,
     MachineTransition,
-    RaiseEvent,
-    ScxmlExpression,
     SendEvent,
     StateMachine,
     matches,
@@ -28,8 +22,11 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, all_o
 from rovercheck.spec_model.lang.system import Statement
 
 
-class MachineWriter(FormulaWriter):
+class MachineWriter(ActionWriter):
     """Writes the step of one machine."""
+
+    domain_of = staticmethod(domain_of)
+    plan_of = staticmethod(plan_of)
 
     def __init__(
         self, machine: StateMachine, view: MachineView, data: dict[str, Var], writer: ProgramWriter
@@ -50,7 +47,7 @@ class MachineWriter(FormulaWriter):
             for atom, chain in self._chains(self.transitions) for one in chain
         }  # fmt: skip
         self.domains = {
-            t: list(each_past(partial(domain_of, t), view.pasts)) for t in self.transitions if t.targets
+            t: list(each_past(partial(self.domain_of, t), view.pasts)) for t in self.transitions if t.targets
         }
         self.go = temporary("goes on", boolean)
         self.event = temporary("event", view.events)
@@ -75,6 +72,8 @@ class MachineWriter(FormulaWriter):
             writer.assign(one, self._no_event())
         for datum in self.data.values():  # what nothing else writes is no input
             writer.assign(datum, datum)
+        for ran in self.ran.values():
+            writer.assign(ran, FALSE)
         ended = writer.temporary("ended", boolean)
         writer.assign(ended, self.ended)
         begun = writer.temporary("begun", boolean)
@@ -169,9 +168,13 @@ class MachineWriter(FormulaWriter):
         self._goes_on()
         self._select([one for one in self.transitions if one.events])
 
+    def asks(self, descriptor: str, event: str) -> bool:
+        """Whether a descriptor matches the name of an event."""
+        return matches(descriptor, event)
+
     def _condition(self, one: MachineTransition) -> Expr:
         """Whether a transition is enabled by its own source."""
-        names = [name for name in self.view.event_names if any(matches(d, name) for d in one.events)]
+        names = [name for name in self.view.event_names if any(self.asks(d, name) for d in one.events)]
         asked = any_of(*(self.event == name for name in names)) if one.events else TRUE
         guard = TRUE if one.condition is None else self.formula(one.condition)
         return all_of(self.active[one.source], asked, guard)
@@ -295,11 +298,12 @@ class MachineWriter(FormulaWriter):
             self.writer.assign(var, FALSE)
 
     def _plans(self, one: MachineTransition) -> None:
-        for when, plan in each_past(partial(plan_of, one), self.view.pasts):
+        for when, plan in each_past(partial(self.plan_of, one), self.view.pasts):
             self.writer.choose(when, partial(self._plan, plan))
 
     def _plan(self, plan: EntryPlan) -> None:
-        pairs = ((self.entered, plan.states), (self.defaults, plan.defaults), (self.begins, plan.begun))
+        begun = set(plan.begun.values())
+        pairs = ((self.entered, plan.states), (self.defaults, plan.defaults), (self.begins, begun))
         for flags, states in pairs:
             for state in sorted(states, key=lambda one: one.number):
                 self.writer.assign(flags[state], TRUE)
@@ -317,7 +321,13 @@ class MachineWriter(FormulaWriter):
         for history in state.histories:
             if history.initial is not None:
                 writer.choose(self.begins[history], partial(self.run, history.initial.actions))
-        if state.kind == "final" and state.parent is not None and state.parent.parent is not None:
+        if state.kind == "final":
+            self._complete(state)
+
+    def _complete(self, state: MachineState) -> None:
+        """A final state is entered."""
+        writer = self.writer
+        if state.parent is not None and state.parent.parent is not None:
             self._push(self.internal, f"done.state.{state.parent.id}")
             above = state.parent.parent
             if above.kind == "parallel":
@@ -328,59 +338,6 @@ class MachineWriter(FormulaWriter):
         if state.kind == "parallel":
             return all_of(*(self._is_final(one) for one in state.children))
         return any_of(FALSE, *(self.active[one] for one in state.children if one.kind == "final"))
-
-    # --- executable content --------------------------------------------------------------------------------
-
-    def _handlers(self, handlers: Sequence[Sequence[Executable]]) -> None:
-        for one in handlers:
-            self.run(one)
-
-    def run(self, actions: Sequence[Executable]) -> None:
-        """Write actions one after the other."""
-        for one in actions:
-            match one:
-                case RaiseEvent(event):
-                    self._push(self.internal, event)
-                case SendEvent(delay=0):
-                    self._push(self.external, one.event)
-                case SendEvent():
-                    self._send(one)
-                case CancelEvent(id):
-                    for sent in self.machine.sends:
-                        if sent.id == id and sent.delay:
-                            timer = self.timers[sent.number]
-                            self.writer.assign(timer, Const(0, timer.sort))
-                case AssignDatum(name, value):
-                    self.writer.assign(self.data[name], self.formula(value))
-                case Choose(branches):
-                    self._branches(branches)
-
-    def _branches(self, branches: Sequence[tuple[ScxmlExpression | None, tuple[Executable, ...]]]) -> None:
-        if branches:
-            (condition, actions), *others = branches
-            when = TRUE if condition is None else self.formula(condition)
-            self.writer.choose(when, partial(self.run, actions), partial(self._branches, others))
-
-    def _send(self, one: SendEvent) -> None:
-        timer = self.timers[one.number]
-        again = f"{one.event} is sent again (line {one.line}) before its delay is over"
-        self.writer.choose(timer > 0, partial(self.writer.fault, again))
-        self.writer.assign(timer, Const(one.delay // self.machine.tick, timer.sort))
-
-    def _push(self, queue: Sequence[Var], event: str) -> None:
-        if event not in self.view.event_names:
-            return
-        if not queue:
-            self.writer.fault(f"more than {MOST_WAITING} events wait at once")
-            return
-        first, *others = queue
-        value = Const(self.view.events.raw(event), first.sort)
-        self.writer.choose(
-            first == NONE, partial(self.writer.assign, first, value), partial(self._push, others, event)
-        )
-
-    def _no_event(self) -> Const:
-        return Const(0, self.view.events.sort)
 
     @property
     def ended(self) -> Expr:

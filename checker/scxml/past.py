@@ -19,11 +19,11 @@ Found = TypeVar("Found")
 
 @dataclass
 class EntryPlan:
-    """What is entered: the states, those entered by default, and the histories without a past."""
+    """What is entered: states, those entered by default, and by parent the last history without a past."""
 
     states: set[MachineState] = field(default_factory=set)
     defaults: set[MachineState] = field(default_factory=set)
-    begun: set[MachineState] = field(default_factory=set)
+    begun: dict[MachineState, MachineState] = field(default_factory=dict)
 
 
 class _Asked(Exception):
@@ -31,7 +31,8 @@ class _Asked(Exception):
         self.history = history
 
 
-def _past(history: MachineState, known: Known) -> Past:
+def past_of(history: MachineState, known: Known) -> Past:
+    """What a history stands for."""
     if history not in known:
         raise _Asked(history)
     return known[history]
@@ -44,7 +45,7 @@ def targets_of(one: MachineTransition, known: Known) -> list[MachineState]:
         if target.kind != "history":
             found.append(target)
             continue
-        past = _past(target, known)
+        past = past_of(target, known)
         assert target.initial is not None
         found += targets_of(target.initial, known) if past is None else past
     return found
@@ -78,9 +79,9 @@ def plan_of(one: MachineTransition, known: Known) -> EntryPlan:
 def _down(plan: EntryPlan, state: MachineState, known: Known) -> None:
     if state.kind == "history":
         assert state.parent is not None and state.initial is not None
-        past = _past(state, known)
+        past = past_of(state, known)
         if past is None:
-            plan.begun.add(state)
+            plan.begun[state.parent] = state
         _each(plan, state.initial.targets if past is None else past, state.parent, known)
         return
     plan.states.add(state)
@@ -170,4 +171,13 @@ def each_past(
     yield when, found
 
 
-__all__ = ["EntryPlan", "PastVariables", "domain_of", "each_past", "plan_of", "targets_of"]
+__all__ = [
+    "EntryPlan",
+    "Known",
+    "PastVariables",
+    "domain_of",
+    "each_past",
+    "past_of",
+    "plan_of",
+    "targets_of",
+]

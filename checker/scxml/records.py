@@ -1,4 +1,4 @@
-"""A machine as SCXML has it: states in document order, transitions, executable content."""
+"""A machine as SCXML or XState has it: states in document order, transitions, executable content."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -6,6 +6,8 @@ from typing import Literal, Union
 
 StateKind = Literal["state", "parallel", "final", "history"]
 ValueKind = Literal["boolean", "integer"]
+Rules = Literal["scxml", "xstate"]
+"""By whose algorithm a machine runs."""
 MOST_MICROSTEPS = 12
 """Turns of the main event loop in one step, each a microstep or an event without an answer; a run that needs
 more is told in place of a verdict."""
@@ -46,7 +48,14 @@ class Operation:
     kind: ValueKind
 
 
-ScxmlExpression = Union[Constant, DatumName, InState, Operation]
+@dataclass(frozen=True)
+class FreeGuard:
+    """A guard that is known by name only: an input, which holds or does not in each step."""
+
+    name: str
+
+
+ScxmlExpression = Union[Constant, DatumName, InState, Operation, FreeGuard]
 
 
 @dataclass(frozen=True)
@@ -89,7 +98,14 @@ class Choose:
     branches: tuple[tuple[ScxmlExpression | None, tuple["Executable", ...]], ...]
 
 
-Executable = Union[RaiseEvent, SendEvent, CancelEvent, AssignDatum, Choose]
+@dataclass(frozen=True)
+class NamedAction:
+    """An action that is known by name only: that it ran in a step can be seen."""
+
+    name: str
+
+
+Executable = Union[RaiseEvent, SendEvent, CancelEvent, AssignDatum, Choose, NamedAction]
 
 
 @dataclass(eq=False)
@@ -118,6 +134,10 @@ class MachineState:
     number: int
     line: int
     deep: bool = False
+    known_as: str = ""
+    """What its ``done`` event ends with, where that is not ``id``: in XState its id."""
+    known_path: str = ""
+    """In XState the names from the machine to it."""
     children: list["MachineState"] = field(default_factory=list)
     """Without history states."""
     histories: list["MachineState"] = field(default_factory=list)
@@ -164,6 +184,19 @@ class StateMachine:
     """Events that the machine may send itself, ``done.state.*`` too, of those that a transition matches."""
     tick: int
     """Milliseconds of a step in which time passes: all delays are multiples of it; 0 without delays."""
+    rules: Rules = "scxml"
+    version: int = 5
+    """Of XState."""
+    done: str = "done.state."
+    """What events of states that are done begin with."""
+    guards: tuple[str, ...] = ()
+    """Guards that are known by name only."""
+    actions: tuple[str, ...] = ()
+    """Actions that are known by name only."""
+    format: str = "SCXML"
+    """What people call the language it is written in."""
+    notes: tuple[str, ...] = ()
+    """What is read in another way than it is written."""
 
     @property
     def named(self) -> Mapping[str, MachineState]:
@@ -182,7 +215,8 @@ def matches(descriptor: str, event: str) -> bool:
 
 __all__ = [
     "MOST_MICROSTEPS", "MOST_WAITING", "OTHER", "AssignDatum", "CancelEvent", "Choose",
-    "Constant", "DatumName", "Executable", "InState",
-    "MachineState", "MachineTransition", "Operation", "RaiseEvent", "ScxmlExpression", "SendEvent",
+    "Constant", "DatumName", "Executable", "FreeGuard", "InState",
+    "MachineState", "MachineTransition", "NamedAction", "Operation", "RaiseEvent", "Rules",
+    "ScxmlExpression", "SendEvent",
     "StateKind", "StateMachine", "ValueKind", "matches",
 ]  # fmt: skip

@@ -99,6 +99,8 @@ class MachineView:
             self.machine.name, [self._state(one) for one in root.children], program,
             default=self._default(root), text=f"The machine {self.machine.name}.",
             place=self._place(root.line),
+            final=[self.paths[one] for one in self.machine.states if one.kind == "final"],
+            waits=self.machine.tick > 0,
         )  # fmt: skip
 
     def _default(self, state: MachineState) -> list[Transition]:

@@ -260,6 +260,7 @@ def data_of(one: XmlElement, place: str) -> DrawnData:
     message = one.child("message")
     props = one.child("props")
     activity = one.property_of("outputState")
+    first = "" if size is None else size.property_of("firstIndex")
     return DrawnData(
         ssid=_whole(one, one.attributes.get("SSID") or one.attributes.get("id", ""), "SSID", place),
         name=one.attributes.get("name", "") or one.property_of("name"),
@@ -269,7 +270,7 @@ def data_of(one: XmlElement, place: str) -> DrawnData:
         initial="" if props is None else props.property_of("initialValue"),
         minimum="" if limits is None else limits.property_of("minimum"),
         maximum="" if limits is None else limits.property_of("maximum"),
-        first_index="" if size is None else size.property_of("firstIndex"),
+        first_index=first and str(_whole(one, first, "firstIndex", place)),
         from_workspace=_on(one, "initFromWorkspace"),
         message=message is not None and _on(message, "isMessage"),
         activity_of=_whole(one, activity, "outputState", place) if activity else None,
@@ -283,7 +284,7 @@ def _whole(one: XmlElement, text: str, what: str, place: str) -> int:
     if not re.fullmatch(r"-?\d{1,18}", written):
         raise ModelError(
             f"{place}, line {one.line}: {what} of <{one.tag}> is {written[:40]!r}, and no whole number. "
-            "Save the model again in Simulink."
+            "Write the number, or save the model again in Simulink."
         )
     return int(written)
 

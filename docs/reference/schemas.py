@@ -20,6 +20,7 @@ from rovercheck.checker.commands.diff.document import DiffDocument
 from rovercheck.checker.commands.doctor.document import DoctorDocument
 from rovercheck.checker.commands.generate_tests.document import GenerateTestsDocument
 from rovercheck.checker.commands.import_.document import ImportDocument
+from rovercheck.checker.commands.import_.machine_document import MachineDocument
 from rovercheck.checker.commands.lint.document import LintDocument
 from rovercheck.checker.commands.list.document import ListDocument
 from rovercheck.checker.commands.mutate.document import MutateDocument
@@ -39,6 +40,7 @@ DOCUMENTS: Mapping[str, Any] = {
     "doctor-1": DoctorDocument,
     "graph-2": GraphDocument,
     "import-1": ImportDocument,
+    "import-machine-1": MachineDocument,
     "lint-1": LintDocument,
     "list-1": ListDocument,
     "mutate-1": MutateDocument,

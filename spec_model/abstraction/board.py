@@ -57,7 +57,7 @@ class Board:
 
     def writer(self) -> InterfaceWriter:
         """Concrete inputs that a run of the model stands for, step by step from power-up."""
-        return InterfaceWriter(self.interface)
+        return InterfaceWriter(self.interface, self.tick_ms)
 
     def at_power_up(self) -> dict[str, Value]:
         """The inputs before anything was measured or received."""

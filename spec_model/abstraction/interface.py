@@ -239,10 +239,10 @@ class InterfaceReader:
 
 
 class InterfaceWriter:
-    """Stamps in place of ages; a step of the model is one of the board."""
+    """Stamps in place of ages; a step of the model is one of the board, of ``tick_ms``."""
 
-    def __init__(self, interface: BoardInterface) -> None:
-        self._now = 0
+    def __init__(self, interface: BoardInterface, tick_ms: int = TICK_MS) -> None:
+        self._now, self._tick_ms = 0, tick_ms
         self._ages = [(r.signal.name, r.age, Stamp()) for r in interface.inputs if r.age is not None]
         self._samples = [(v.signal, v.var) for v in interface.views if v.how is Carriage.SAMPLE]
 
@@ -251,7 +251,7 @@ class InterfaceWriter:
 
         What the model does not know keeps its initial value.
         """
-        self._now += at.get(step_ms.name, TICK_MS)
+        self._now += at.get(step_ms.name, self._tick_ms)
         inputs: dict[str, Value] = {NOW: self._now}
         for name, held, stamp in self._ages:
             if held.ms is not None and held.ms.name in at:

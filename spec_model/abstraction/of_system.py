@@ -10,6 +10,7 @@ from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 from rovercheck.spec_model.lang.system import System
 
 
@@ -21,7 +22,7 @@ def board_of(system: System, model: str = "") -> Board:
     was read from.
 
     Raises ``ModelError`` for a system with parameters that are still to be chosen, with ticks of unlike
-    lengths, or with data of the name of the clock.
+    lengths, a machine with delays among them, or with data of the name of the clock.
     """
     if system.frozen:
         chosen = ", ".join(v.name for v in system.frozen)
@@ -34,6 +35,12 @@ def board_of(system: System, model: str = "") -> Board:
             f"{system.name} has ticks of unlike lengths, told by {system.elapsed.name}; an implementation is "
             "executed in steps of one length. Name a system without elapsed=."
         )
+    for chart in system.charts:
+        if isinstance(chart, ProgrammedChart) and chart.waits:
+            raise ModelError(
+                f"{chart.name} is a machine with delays: time passes only in its steps without an event. An "
+                "implementation is executed in steps of one length; name a system whose steps all take one."
+            )
     inputs = tuple(system.inputs.values())
     outputs = _outputs(system)
     names = _names((*inputs, *outputs))

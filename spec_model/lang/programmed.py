@@ -60,7 +60,11 @@ def is_fault(var: Var) -> bool:
 
 
 class ProgrammedChart(Chart):
-    """A chart with the program of its step.  Its labels are texts, as the file has them."""
+    """A chart with the program of its step.  Its labels are texts, as the file has them.
+
+    ``final`` are the states in which it is meant to stay; with ``waits`` time passes only in steps without
+    an event.
+    """
 
     def __init__(
         self,
@@ -75,14 +79,17 @@ class ProgrammedChart(Chart):
         figure: ChartFigure | None = None,
         text: str = "",
         place: Place | None = None,
+        final: Collection[Path] = (),
+        waits: bool = False,
     ) -> None:
         self.name, self.text, self.local_to, self.data, self.label_faults = name, text, (), (), ()
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place
         )  # fmt: skip
         self.program, self._inner, self._figure = program, inner or {}, figure
+        self.final, self.waits = tuple(final), waits
 
-    _written = (*Chart._written, "program", "_inner", "_figure")
+    _written = (*Chart._written, "program", "_inner", "_figure", "final", "waits")
 
     @property
     def figure(self) -> ChartFigure | None:
@@ -100,6 +107,7 @@ class ProgrammedChart(Chart):
         return ProgrammedChart(
             self.name, root.states, program, default=root.default, junctions=root.junctions,
             parallel=root.parallel, inner=self._inner, figure=self._figure, text=self.text, place=root.place,
+            final=self.final, waits=self.waits,
         )  # fmt: skip
 
     def with_root(self, root: State) -> Chart:

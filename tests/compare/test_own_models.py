@@ -16,6 +16,7 @@ from rovercheck.checker.compare.beside import rerun
 from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.model.load import load
 from rovercheck.spec_model.abstraction.of_system import board_of
+from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import chosen
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import Assumption
@@ -260,3 +261,10 @@ class Still(Noting):
 
     def step(self, given: object) -> dict[str, float]:
         return {"Fan": 1}
+
+
+@pytest.mark.parametrize("length", [10, 100])
+def test_runs_of_a_system_become_inputs_in_steps_of_its_length(length: int) -> None:
+    board = board_of(in_order("fan", fan, tick_ms=length))
+    moments = [dict.fromkeys(board.system.inputs, 0)] * 3
+    assert [at[NOW] for at in board.run(iter(moments))] == [length, 2 * length, 3 * length]

@@ -106,6 +106,31 @@ def test_blocks_that_feed_each_other_without_a_delay_are_refused(tmp_path: Path)
         read(model, tmp_path)
 
 
+def test_what_feeds_each_other_only_through_a_group_is_no_loop(tmp_path: Path) -> None:
+    """A subsystem that is not atomic only groups its blocks, each of which has its own place in the order."""
+    model = WrittenModel("one")
+    [a], [y] = ports(model.root, {"a": "double"})
+    group, inside = model.root.subsystem("Group", 2, 2)
+    for number in (1, 2):
+        gain = inside.block("Gain", f"by {number}", {"in": 1, "out": 1}, Gain=str(number + 1))
+        inside.line(inside.inport(f"u{number}", number), gain)
+        inside.line(gain, inside.outport(f"v{number}", number))
+    model.root.line(a, f"{group}/1")
+    model.root.line(f"{group}/1", f"{group}/2")
+    model.root.line(f"{group}/2", y)
+    assert read(model, tmp_path).step({"a": 5}) == {"y1": 30}
+
+
+def test_a_from_gives_the_signal_of_the_goto_with_its_tag(tmp_path: Path) -> None:
+    model = WrittenModel("one")
+    [a, b], [y1, y2] = ports(model.root, {"a": "double", "b": "double"}, 2)
+    for tag, port in (("first", a), ("second", b)):
+        model.root.line(port, model.root.block("Goto", f"to {tag}", {"in": 1}, {}, GotoTag=tag))
+    for tag, end in (("second", y1), ("first", y2)):
+        model.root.line(model.root.block("From", f"from {tag}", {"out": 1}, {}, GotoTag=tag), end)
+    assert read(model, tmp_path).step({"a": 3, "b": 7}) == {"y1": 7, "y2": 3}
+
+
 def enabled(folder: Path, **values: object) -> ModelRunner:
     """A chart that counts, in a subsystem that runs where ``on`` is true."""
     model = WrittenModel("one")

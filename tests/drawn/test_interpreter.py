@@ -289,3 +289,14 @@ def test_on_sections_run_in_an_execution_with_their_event(tmp_path: Path) -> Non
         assert t
 
     assert logged(running(tmp_path, draw, parallel=True), [0, 0, 1]) == [0, 3, 31323]
+
+
+def test_sections_of_one_kind_run_in_the_order_they_are_written(tmp_path: Path) -> None:
+    """What stands before the first keyword is one, too."""
+
+    def draw(c: WrittenChart) -> None:
+        c.transition(
+            None, c.state(f"A\n{note(1)}\nen: {note(2)}\ndu: {note(4)}\nen: {note(3)}\ndu: {note(5)}")
+        )
+
+    assert logged(running(tmp_path, draw), [0, 0]) == [123, 12345]

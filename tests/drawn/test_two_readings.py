@@ -38,3 +38,8 @@ def test_both_give_the_same_in_every_row(
         assert found.refused or found.fault or found.rows == ROWS
         refused += [f"seed {seed}: {found.refused}"] if found.refused else []
     assert len(refused) * 20 <= count // PARTS, f"more than one in 20 are refused: {refused}"
+
+
+def test_what_initialization_leaves_may_be_outside_a_range_that_is_learned_later(tmp_path: Path) -> None:
+    """Lowering ended with an error about a variable that starts outside its domain."""
+    assert compared(small_model(1088, tmp_path), random_rows(Random(1088), ROWS)).rows == ROWS

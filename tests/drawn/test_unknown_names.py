@@ -58,7 +58,7 @@ def test_the_examples_have_none() -> None:
     [
         ("speed = f(u); GO; send(GO, B);", "GO[after(3, sec) && in(A)]{speed = temporalCount(tick);}"),
         ("for n = 1:2, speed = speed + n; end", "after(2, GO)[hasChanged(u) || duration(u > 1, msec) > 5]"),
-        ("speed = max([1 2]);", "enter(B)"),
+        ("speed = max([1 2]);", "tick | wakeup"),
     ],
 )
 def test_what_is_known_is_not_told(tmp_path: Path, action: str, label: str) -> None:
@@ -81,6 +81,14 @@ def test_a_name_without_a_meaning_is_told_once_with_its_element(
     tmp_path: Path, action: str, label: str, script: str, what: str, name: str
 ) -> None:
     assert told(written(tmp_path, action, label, script)) == [(what, name)]
+
+
+@pytest.mark.parametrize("label", ["enter(B)", "exit(A)", "change(speed)"])
+def test_an_implicit_event_is_refused_by_its_name(tmp_path: Path, label: str) -> None:
+    """Its name was taken for known, and the check of the model ended at what is neither event nor time."""
+    [(what, text)] = told(written(tmp_path, "", label))
+    assert what == f"the transition `{label}`"
+    assert text.startswith(f"{label.partition('(')[0]}(...) is an implicit event, which has no meaning here")
 
 
 def test_it_is_refused_with_what_may_be_meant(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,6 +14,8 @@ NAME = "OPERATIONS"
 WITHOUT = {
     "rovercheck.checker.conformance.program": "has the table of Python's text, with two rows for decimals",
     "rovercheck.checker.export.infix": "is the part that the tables of SMV and Promela have in common",
+    "rovercheck.checker.drawn.charts.masks": "simplifies some operators, and leaves the others as they are",
+    "rovercheck.checker.drawn.charts.tidy": "simplifies some operators, and leaves the others as they are",
     "rovercheck.checker.drawn.lower.bits": "makes formulas",
     "rovercheck.checker.drawn.lower.rounding": "makes formulas",
     "rovercheck.checker.system.wide_cells": "asks which operators keep the order of numbers",

@@ -113,9 +113,9 @@ BASELINES = {
 
 PATHS = {
     "": "Invalid value for '--model': the path is empty;",
-    "nope.py": "There is no nope.py; a model is a .py file, a folder of them, a .slx or a .scxml file.",
-    "text.txt": "text.txt is no Python file; a model is a .py file, a folder of them, a .slx or a .scxml",
-    "empty": "empty holds no Python file; a model is a .py file, a folder of them, a .slx or a .scxml file.",
+    "nope.py": "There is no nope.py; a model is a .py file, a folder of them, a .slx, .scxml or",
+    "text.txt": "text.txt is no Python file; a model is a .py file, a folder of them, a .slx, .scxml or",
+    "empty": "empty holds no Python file; a model is a .py file, a folder of them, a .slx, .scxml or",
     "a.b.py": "a.b.py has a dot in its name, which no module can have; rename the file.",
 }
 

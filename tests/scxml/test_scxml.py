@@ -191,6 +191,20 @@ def test_a_machine_is_not_written_for_simulink_without_its_program(
     assert "its step is a program" in " ".join(capsys.readouterr().err.split()) and not out.exists()
 
 
+def test_a_machine_without_transitions_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "one.scxml"
+    file.write_text(machine("<state id='a'/>"), encoding="utf-8")
+    assert "event" not in scxml_model(file).system.inputs  # nothing asks for one
+
+
+def test_a_machine_with_delays_is_no_implementation_in_steps_of_one_length(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = ["generate-tests", "-o", str(tmp_path / "out"), "--model", str(DOOR)]
+    assert run(line) == Exit.USAGE
+    assert "Door is a machine with delays: time passes only in" in " ".join(capsys.readouterr().err.split())
+
+
 def test_next_steps_of_a_machine_are_refused_in_a_message() -> None:
     with pytest.raises(ModelError, match="Door was read from a file, and what it can do next is not listed"):
         StepFinder(scxml_model(DOOR).system)

@@ -6,8 +6,10 @@ from zipfile import ZipFile
 
 import pytest
 
+from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.simulink.model import read_model
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.packages_by_hand import block, chart, datum, model, ports, refused, run, signal
 
 ROWS = [{"a": 7, "b": 2}, {"a": -7, "b": 2}]
@@ -315,3 +317,31 @@ def test_a_function_call_goes_to_the_port_of_its_event(through: str, tmp_path: P
     )  # fmt: skip
     rows = [{"a": 3}, {"a": 3}, {"a": -1}]
     assert run(read, rows) == [(1, 0), (3, 6), (-1, 4)]
+
+
+def indexed_from(first: str, folder: Path) -> DrawnModel:
+    """A chart in C with an array of three numbers, whose second the index 1 may be."""
+    data = (
+        datum(3, "u", "INPUT_DATA")
+        + datum(4, "y", "OUTPUT_DATA")
+        + datum(5, "v", "LOCAL_DATA", "int8", "[4 5 6]")
+    )
+    array = f'<array><P Name="size">3</P><P Name="firstIndex">{first}</P></array><P Name="initialValue">[4'
+    drawn = chart("A\ndu: y = v[1];", data.replace('<P Name="initialValue">[4', array))
+    in_c = drawn.replace('<P Name="actionLanguage">2</P>', "")
+    made = block("SubSystem", "C", 5, "", Ports="[1, 1]", SFBlockType="Chart")
+    return model(made + ports(5, "u", "y"), folder, "", in_c)
+
+
+@pytest.mark.parametrize(("first", "expected"), [("", 5), ("0", 5), ("1", 4)])
+def test_an_array_in_c_has_the_first_index_that_the_file_says(
+    first: str, expected: int, tmp_path: Path
+) -> None:
+    assert run(indexed_from(first, tmp_path), [{"u": 0}, {"u": 0}]) == [(0,), (expected,)]
+
+
+@pytest.mark.parametrize("first", ["K", "1.5", "[1 1]"])
+def test_a_first_index_that_is_no_whole_number_is_refused(first: str, tmp_path: Path) -> None:
+    """It was an internal error."""
+    with pytest.raises(ModelError, match=r"line \d+: firstIndex of <data> is '.*', and no whole number"):
+        indexed_from(first, tmp_path)

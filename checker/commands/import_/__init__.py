@@ -1,10 +1,10 @@
-"""The verb ``import``: what is drawn in a file of Simulink."""
+"""The verb ``import``: what is drawn in a file of Simulink, or stands in a machine of SCXML or XState."""
 
 from pathlib import Path
 
 import click
 
-from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
 
 EXAMPLES = """\b
 Examples:
@@ -12,8 +12,10 @@ Examples:
   rovercheck import supervisor.slx --beside parameters.m --beside types.sldd
   rovercheck import supervisor.slx --compare run.csv
   rovercheck import supervisor.slx --propose-domains
+  rovercheck import supervisor.slx --write supervisor
   rovercheck import supervisor.slx --json
   rovercheck import door.scxml
+  rovercheck import machine.json
 """
 
 FILE = click.Path(path_type=Path)
@@ -41,6 +43,11 @@ FILE = click.Path(path_type=Path)
     "--strict", is_flag=True,
     help="Exit code 2 also where something is read only with a note, or needs a domain.",
 )  # fmt: skip
+@click.option(
+    "--write", "folder", type=FILE, metavar="FOLDER",
+    help="Write the model into a new folder as an ordinary model in Python, which may be read and "
+    "edited, once it is compared with what is drawn.",
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="All that was read, as JSON.")
 def import_(
     model: Path,
@@ -49,19 +56,28 @@ def import_(
     propose: bool,
     force: bool,
     strict: bool,
+    folder: Path | None,
     as_json: bool,
 ) -> Exit:
     """Say what is drawn in a file of Simulink: charts, blocks, types, events, timers; without MATLAB.
 
     Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
-    if model.suffix == ".scxml":  # what reads either is loaded only then
-        from rovercheck.checker.commands.import_.machine import import_machine
+    if model.suffix in (".scxml", ".json"):  # what reads either is loaded only then
+        from rovercheck.checker.commands.import_.machine import import_machine, propose_ranges
 
-        return import_machine(model, bool(beside or log or propose or as_json or strict))
+        if propose:
+            return propose_ranges(model, force)
+        return import_machine(model, bool(beside or log or strict or folder), as_json=as_json)
     from rovercheck.checker.commands.import_.propose import propose_domains
     from rovercheck.checker.commands.import_.run import import_model
 
+    if folder is not None:
+        if log or propose or as_json or strict or force:
+            raise UsageError("--write goes with --beside alone; leave out the other options, or --write.")
+        from rovercheck.checker.commands.import_.written import write_model
+
+        return write_model(model, beside, folder)
     if propose:
         return propose_domains(model, beside, force)
     return import_model(model, beside, log, strict=strict, as_json=as_json)

@@ -8,7 +8,7 @@ from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.drawn.lower.lowered import RangeNotKnown
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.records import DrawnModel
-from rovercheck.checker.model.two_readings import compared_readings
+from rovercheck.checker.model.two_readings import compared_readings, rounding_note
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.lower import lower
 
@@ -44,9 +44,12 @@ def lowering_of(path: Path, model: DrawnModel) -> LoweringReport:
         return LoweringReport(needed=str(error))
     except (NotLowered, ModelError) as error:
         return LoweringReport(refused=str(error).rstrip("."))
+    difference = found.difference
+    note = "" if difference is None else rounding_note(lowered, difference, said.domains)
+    notes = (*lowered.notes, *([note] if note else []))
     return LoweringReport(
-        inputs=len(system.inputs), variables=len(system.variables), notes=tuple(lowered.notes),
-        runs=found.runs, steps=found.steps, difference=str(found.difference or ""),
+        inputs=len(system.inputs), variables=len(system.variables), notes=notes,
+        runs=found.runs, steps=found.steps, difference="" if difference is None or note else str(difference),
     )  # fmt: skip
 
 

@@ -52,13 +52,19 @@ def _row(system: str, goal: GuardGoal) -> LintRow:
 def without_way_out(system: System) -> Iterator[LintRow]:
     """The states that stay active for good once they are: no transition leaves them or what is around them.
 
-    A state that is alone where it stands, such as a region, needs none.
+    A state that is alone where it stands, such as a region, needs none, nor one that is drawn as final.
     """
     for chart in system.charts:
+        meant = chart.final if isinstance(chart, ProgrammedChart) else ()
         for path in filter(None, chart.states):
             around = [path[:depth] for depth in range(1, len(path) + 1)]
             leaf, chosen = not chart.states[path].states, any(_has_rivals(chart, one) for one in around)
-            if leaf and chosen and not any(_left(chart, one) or _left_beside(chart, one) for one in around):
+            if (
+                path not in meant
+                and leaf
+                and chosen
+                and not any(_left(chart, one) or _left_beside(chart, one) for one in around)
+            ):
                 yield LintRow(
                     system=system.name, chart=chart.name, kind="way out", what=".".join(path),
                     found="never", evidence="no transition leaves it, or a state around it",

@@ -169,7 +169,7 @@ def _equal(one: MatlabValue, other: MatlabValue) -> bool:
 
 def _word(unit: Expression) -> str:
     if isinstance(unit, Name):
-        return unit.name
+        return "tick" if unit.name == "wakeup" else unit.name
     raise DrawnFault("times are counted in sec, msec, usec, tick or in an event")
 
 

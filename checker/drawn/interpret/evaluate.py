@@ -24,6 +24,13 @@ from rovercheck.checker.drawn.grammar.syntax import (
     WholeRange,
 )
 from rovercheck.checker.drawn.interpret.functions import BUILTINS, WITHOUT_EFFECT
+from rovercheck.checker.drawn.interpret.matrix_functions import (
+    EXTREMES,
+    FURTHER,
+    TYPED,
+    limit_of,
+    place_of_extreme,
+)
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, datum_of
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
@@ -201,23 +208,47 @@ class Evaluator(ABC):
         function = next((one.functions[name] for one in frame.node.lineage() if name in one.functions), None)
         if frame.calls > MOST_CALLS:
             raise DrawnFault(f"{name} calls itself, or more than {MOST_CALLS} functions call each other")
-        if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
-            kind = given.pop()
-            assert isinstance(kind, TextLiteral)
-            [made] = [self.value(given[0], frame)] if name == "cast" else self._called(name, given, frame)
-            return [each_converted(made, self.memory.types.kind(kind.value), frame.rules)]
-        values = [self.value(one, frame) for one in given if not isinstance(one, TextLiteral)]
-        if name in frame.script:
-            return self.script(frame.script[name], values, frame)
-        if function is not None:
+        if name in frame.script or function is not None:
+            values = [self.value(one, frame) for one in given]
+            if name in frame.script:
+                return self.script(frame.script[name], values, frame)
+            assert function is not None
             return self._words.call(function, values, frame.calls + 1)
-        if name in BUILTINS:
-            return [BUILTINS[name](values, frame.rules)]
         if name in WITHOUT_EFFECT:
             return []
-        if name in self.memory.types.enumerations:
+        texts = [one.value for one in given if isinstance(one, TextLiteral)]
+        values = [self.value(one, frame) for one in given if not isinstance(one, TextLiteral)]
+        if texts or name in TYPED:
+            return [self._typed(name, values, texts, frame)]
+        try:
+            if name in BUILTINS:
+                found = BUILTINS[name](values, frame.rules)
+                return [found, place_of_extreme(name, values[0])] if name in EXTREMES else [found]
+            if name in FURTHER:
+                return [FURTHER[name](values, frame.rules)]
+        except (ValueError, IndexError) as error:
+            raise DrawnFault(f"{name} takes other arguments") from error
+        if name in self.memory.types.enumerations and len(values) == 1:
             return [each_converted(values[0], f"Enum: {name}", frame.rules)]
         raise DrawnFault(f"{name} is not known here")
+
+    def _typed(
+        self, name: str, values: Sequence[MatlabValue], texts: Sequence[str], frame: CallFrame
+    ) -> MatlabValue:
+        """A function whose last argument names a type, or is ``like`` a value."""
+        given, like = list(values), bool(texts and values) and texts[-1] == "like"
+        if len(texts) > 1 or not (like or name in ("zeros", "ones", *TYPED)):
+            raise DrawnFault(f"{name} takes no text here: leave {texts[0]!r} out")
+        kind = given.pop().kind if like else self.memory.types.kind(texts[0] if texts else "int32")
+        if name in ("zeros", "ones"):
+            return each_converted(BUILTINS[name](given, frame.rules), kind, frame.rules)
+        if name == "cast" and len(given) == 1:
+            return each_converted(given[0], kind, frame.rules)
+        if name == "isa" and len(given) == 1:
+            return logical(given[0].kind == kind)
+        if name in ("intmax", "intmin"):
+            return limit_of(name, kind)
+        raise DrawnFault(f"{name} takes other arguments")
 
     @abstractmethod
     def script(

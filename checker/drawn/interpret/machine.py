@@ -56,6 +56,7 @@ class ChartMachine:
         self._child: dict[StateNode, StateNode] = {}
         self._last: dict[StateNode, StateNode] = {}
         self._events: list[str] = []
+        self._nested = 0
         self._tried = 0
         self.begun = False
         self._activities = [d for d in chart.root.data.values() if d.activity_of is not None]
@@ -208,6 +209,8 @@ class ChartMachine:
     def _occurs(self, event: Expression, frame: CallFrame) -> bool:
         """Whether an event is the current one, or a temporal condition holds."""
         match event:
+            case Name("tick" | "wakeup" as name) if not self._is_event(name, frame):
+                return not self._nested
             case Name(name) | Member(_, name):
                 return bool(self._events) and self._events[-1] == name
         value = self.clock.word(event, frame, self._now, self._runner)
@@ -349,6 +352,7 @@ class ChartMachine:
             return
         self.clock.saw(name, self.active)
         self._events.append(name)
+        self._nested += 1
         tried, self._tried = self._tried, 0
         try:
             if receiver is None:
@@ -357,6 +361,7 @@ class ChartMachine:
                 self._execute(receiver)
         finally:
             self._events.pop()
+            self._nested -= 1
             self._tried = tried
 
     def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:

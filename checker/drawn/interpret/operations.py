@@ -42,7 +42,9 @@ def binary(sign: str, left: MatlabValue, right: MatlabValue, rules: NumberRules)
         [one], [other] = scalars(left), scalars(right)
         return _scalar(sign, one, other, rules)
     if sign in ("*", "/", "^", "\\") and isinstance(left, ArrayOf) and isinstance(right, ArrayOf):
-        raise DrawnFault(f"a product of matrices is not known here: write .{sign} for element by element")
+        if sign == "*":
+            return _product(left, right, rules)
+        raise DrawnFault(f"{sign} between matrices is not known here: write .{sign} for element by element")
     rows, columns = shape(left if isinstance(left, ArrayOf) else right)
     if isinstance(left, ArrayOf) and isinstance(right, ArrayOf) and shape(right) != (rows, columns):
         raise DrawnFault(
@@ -53,6 +55,24 @@ def binary(sign: str, left: MatlabValue, right: MatlabValue, rules: NumberRules)
     rights = right.values if isinstance(right, ArrayOf) else tuple(scalars(right)) * size
     made = [_scalar(sign, one, other, rules) for one, other in zip(lefts, rights, strict=True)]
     return array(made, rows, columns)
+
+
+def _product(left: ArrayOf, right: ArrayOf, rules: NumberRules) -> MatlabValue:
+    if left.columns != right.rows:
+        raise DrawnFault(f"* between matrices of {left.rows}x{left.columns} and {right.rows}x{right.columns}")
+    made = []
+    for row in range(left.rows):
+        for column in range(right.columns):
+            across = left.values[row * left.columns : (row + 1) * left.columns]
+            terms = [
+                _scalar("*", a, b, rules)
+                for a, b in zip(across, right.values[column :: right.columns], strict=True)
+            ]
+            total = terms[0]
+            for term in terms[1:]:
+                total = _scalar("+", total, term, rules)
+            made.append(total)
+    return array(made, left.rows, right.columns)
 
 
 def _scalar(sign: str, left: Scalar, right: Scalar, rules: NumberRules) -> Scalar:

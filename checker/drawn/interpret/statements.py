@@ -148,6 +148,10 @@ class StatementRunner(Evaluator):
             self._write(targets[0], new, frame)
             return
         given = self._several(value, frame)
+        if isinstance(value, Applied) and value.function == Name("size"):
+            given = list(scalars(given[0]))
+        if len(given) < len(targets):
+            raise DrawnFault(f"{len(targets)} values are taken of a function that gives {len(given)}")
         for target, one in zip(targets, given, strict=False):
             if target is not None:
                 self._write(target, one, frame)

@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.lower.chart_data import ChartDataWriter
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.regions import left_in_part, seen_in_part, sends
 from rovercheck.checker.drawn.lower.symbols import folded
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
@@ -19,7 +20,8 @@ from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, any_of
 class ActiveStateWriter(ChartDataWriter):
     """What is active of one chart, and where its texts stand.
 
-    Regions have a variable each if events are sent, as they may be left one by one then.
+    Regions have a variable each where events may be answered while only some of them are active.  Those of
+    the chart, if they are never left, are so in the step only in which they are entered.
     """
 
     def __init__(
@@ -27,14 +29,15 @@ class ActiveStateWriter(ChartDataWriter):
         named: Mapping[str, str], data_names: Callable[[DrawnData, StateNode], str],
     ) -> None:  # fmt: skip
         super().__init__(chart, view, table, writer, named, data_names)
-        self.sends = _sends(chart)
+        self.sends = sends(chart)
         self._stack: list[tuple[int, str]] = []
         """What is executed now, from the outside to the inside: a state, 0 for the chart, and its event."""
         self._dropped: Var | None = None
         self._regions: dict[int, Var] = {}
         self._last: dict[int, Var] = {}
+        self._stays = chart.root.parallel and not left_in_part(chart, chart.root)
         for node in chart.root.every():
-            if node.parallel and self.sends:
+            if node.parallel and seen_in_part(chart, node):
                 self._regions |= {region.ssid: self._region(region) for region in node.children}
             if node.history is not None and node.children and not node.parallel:
                 self._last[node.ssid] = self._left_last(node)
@@ -42,6 +45,15 @@ class ActiveStateWriter(ChartDataWriter):
     def _region(self, region: StateNode) -> Var:
         name = f"{self.writer.name}.{'.'.join(self.view.paths[region.ssid])}.active"
         return Var(name, boolean, self.table.starting.get(name, 0), "whether the region is active", True)
+
+    def _begin_regions(self) -> None:
+        """Regions of the chart that are never left are active from its first step on."""
+        if self._stays:
+            for region in self.chart.root.children:
+                if region.ssid in self._regions:
+                    variable = self._regions[region.ssid]
+                    self.writer.temporaries[variable.name] = variable
+                    self.writer.assign(variable, self._has_begun)
 
     def _left_last(self, node: StateNode) -> Var:
         place = self.view.location(node)
@@ -52,6 +64,16 @@ class ActiveStateWriter(ChartDataWriter):
     def _event(self) -> str:
         """The event that is answered now; empty in a plain step."""
         return self._stack[-1][1] if self._stack else ""
+
+    @property
+    def _is_nested(self) -> bool:
+        """Whether an event is answered that an action sent."""
+        return sum(ssid <= 0 for ssid, _ in self._stack) > 1
+
+    def _is_event(self, name: str, scope: TextScope) -> bool:
+        if scope.function and f"{scope.function}:{name}" in self.writer.locals:
+            return False
+        return any(name in node.events for node in self.chart.root.every())
 
     def active(self, node: StateNode) -> Expr:
         """Whether a state is active at this point."""
@@ -114,11 +136,6 @@ class ActiveStateWriter(ChartDataWriter):
         self.writer.choose(
             self.active(first), lambda: act(first), lambda: self._for_active_child(node, others_, act)
         )
-
-
-def _sends(chart: ParsedChart) -> bool:
-    """Whether a chart may send an event to itself."""
-    return any(one.scope == "local" for node in chart.root.every() for one in node.events.values())
 
 
 __all__ = ["ActiveStateWriter"]

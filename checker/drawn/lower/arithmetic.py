@@ -40,8 +40,10 @@ _EXACT: Mapping[str, Callable[[Expr, Expr], Expr]] = {
 def binary(sign: str, left: Symbolic, right: Symbolic, rules: IntegerRules) -> Symbolic:
     """An operator between two values, matrices element by element.  Raises ``NotLowered``."""
     if isinstance(left, SymbolicArray) and isinstance(right, SymbolicArray):
-        if sign in ("*", "/", "^", "\\"):
-            raise NotLowered(f"a product of matrices: write .{sign} for element by element")
+        if sign == "*":
+            return _product(left, right, rules)
+        if sign in ("/", "^", "\\"):
+            raise NotLowered(f"{sign} between matrices: write .{sign} for element by element")
         if size_of(left) != size_of(right):
             shown = " and ".join("x".join(map(str, size_of(one))) for one in (left, right))
             raise NotLowered(f"{sign} between matrices of {shown}")
@@ -52,6 +54,19 @@ def binary(sign: str, left: Symbolic, right: Symbolic, rules: IntegerRules) -> S
     )
     made = [scalar_of(sign, one, other, rules) for one, other in zip(lefts, rights, strict=True)]
     return matrix(made, rows, columns)
+
+
+def _product(left: SymbolicArray, right: SymbolicArray, rules: IntegerRules) -> Symbolic:
+    if left.columns != right.rows:
+        raise NotLowered(f"* between matrices of {left.rows}x{left.columns} and {right.rows}x{right.columns}")
+
+    def entry(row: int, column: int) -> SymbolicScalar:
+        pairs = zip(left.values[row * left.columns :], right.values[column :: right.columns], strict=False)
+        terms = [scalar_of("*", one, other, rules) for one, other in pairs]
+        return reduce(lambda sofar, one: scalar_of("+", sofar, one, rules), terms)
+
+    made = [entry(row, column) for row in range(left.rows) for column in range(right.columns)]
+    return matrix(made, left.rows, right.columns)
 
 
 def scalar_of(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: IntegerRules) -> SymbolicScalar:

@@ -24,20 +24,21 @@ from rovercheck.spec_model.lang.walk import variables
 
 
 class LoweringAttempt:
-    """One attempt to lower a model."""
+    """One attempt to lower a model; ``systems`` makes the components of its charts and blocks."""
 
     def __init__(
         self, model: DrawnModel, file: str, table: DataTable, charts: Mapping[str, ParsedChart], step: str,
-        most: int,
+        most: int, systems: type[SystemWriter] = SystemWriter,
     ) -> None:  # fmt: skip
         self.model, self.table, self.step, self._file = model, table, step, file
+        self._systems = systems
         self.context = LoweringContext(model, file, table, charts, step, most)
         self.inputs: dict[str, Expr] = {}
         self._missing: list[str] = []
 
     def lowered(self) -> LoweredModel:
         """The system.  Raises ``NotLowered``, and ``RangeNotKnown`` for inputs without a domain."""
-        top = SystemWriter(self.model.system, self.context, "")
+        top = self._systems(self.model.system, self.context, "")
         root = {number_of(one): one for one in self.model.system.blocks if one.kind == "Inport"}
         given = [self._input(root[n], top) for n in sorted(root)]
         if self._missing:

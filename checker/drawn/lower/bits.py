@@ -1,5 +1,6 @@
 """Whole numbers joined, shifted and turned bit by bit; negative ones are in two's complement."""
 
+import operator
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
@@ -27,10 +28,20 @@ BIT_SIGNS: Mapping[str, Callable[[Expr, Expr], Expr]] = {
 """How two bits are joined by each operator."""
 
 
+WHOLE_SIGNS: Mapping[str, Callable[[int, int], int]] = {
+    "bit|": operator.or_, "bit&": operator.and_, "bit^": operator.xor
+}  # fmt: skip
+"""The same of whole numbers."""
+
+
 def bitwise(sign: str, one: Expr, other: Expr, kind: str) -> Expr:
     """Two whole numbers joined by one of ``BIT_SIGNS``.  Raises ``NotLowered`` for those of another type."""
     if kind not in INTEGERS and kind not in (UNTYPED, "double"):
         raise NotLowered(f"{sign.removeprefix('bit')} between numbers that are not whole")
+    if isinstance(one, Const) and isinstance(other, Const) and kind == UNTYPED:
+        return const(WHOLE_SIGNS[sign](one.value, other.value))
+    if kind in INTEGERS:  # as a literal, or a shorter type of C, may be negative beside an unsigned one
+        one, other = (in_range(side, kind, saturates=False) for side in (one, other))
     low, high = INTEGERS[kind] if kind in INTEGERS else (0, 2**53 - 1)
     total = _joined_bits(one, other, low, high, BIT_SIGNS[sign])
     return in_range(total, kind, saturates=False) if kind in INTEGERS else total
@@ -78,6 +89,8 @@ def shifted(expr: Expr, by: Expr, kind: str) -> Expr:
 
 def complement(value: SymbolicScalar) -> SymbolicScalar:
     """All bits turned.  Raises ``NotLowered`` for a value without an integer type."""
+    if value.kind == UNTYPED:
+        return SymbolicScalar(UNTYPED, folded(const(-1) - value.expr))
     if value.kind not in INTEGERS:
         raise NotLowered("the complement of a number without an integer type: convert it, as in uint8(x)")
     low, high = INTEGERS[value.kind]

@@ -95,6 +95,8 @@ class ChartBlockWriter(TriggerWriter):
         for one in made.chart.root.data.values():
             for leaf, cell in leaves(made.cells[one.ssid], f"{writer.name}.{one.name}"):
                 at = cell.expr.name if isinstance(cell.expr, Var) else ""
+                if one.scope != "input":
+                    self.own.add(at)
                 if at not in writer.temporaries and at not in context.memories:  # else it changes later
                     context.data[leaf] = cell.expr
 

@@ -47,7 +47,7 @@ class FunctionWriter(PathWriter):
                 if at < len(arguments):
                     self._all(self.datum(one, arguments[at]), arguments[at], replace(scope, node=flow))
         inner = TextScope(flow, self.rules, scope.event, calls=(*scope.calls, name), keeper=keeper)
-        self._search(flow.defaults, inner, lambda path: None, in_function=True)
+        self._search(flow.defaults, inner, lambda path: None, function=flow)
         return [self.kept(self._now(self.cells[flow.data[name].ssid])) for name in signature.outputs]
 
     def _executed(

@@ -1,19 +1,37 @@
 """Paths of transitions through junctions: which is taken, and what is done on the way."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from functools import partial
 
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
 from rovercheck.checker.drawn.lower.chart_words import WordWriter
+from rovercheck.checker.drawn.lower.joints import joints_of
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
-from rovercheck.checker.drawn.parsed import StateNode, TransitionNode
+from rovercheck.checker.drawn.parsed import JunctionNode, StateNode, TransitionNode
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, any_of, const
 
 MOST_VISITS = 1_000
 """Times that a path goes through one junction, where each is sure."""
 TransitionPath = list[TransitionNode]
+
+
+@dataclass(frozen=True)
+class _PathSearch:
+    """A search for paths: ``done`` is raised where one is found, ``complete`` says what it does then.
+
+    In a flow chart of a function a path also ends in a junction, and actions are done at once.  ``joint`` is
+    where all paths from a junction come together, which raises ``done``, too.
+    """
+
+    scope: TextScope
+    complete: Callable[[TransitionPath], None]
+    done: Var
+    in_function: bool
+    joints: Mapping[JunctionNode, JunctionNode]
+    joint: JunctionNode | None = None
 
 
 class PathWriter(WordWriter):
@@ -24,27 +42,25 @@ class PathWriter(WordWriter):
 
     def _search(
         self, transitions: Sequence[TransitionNode], scope: TextScope,
-        complete: Callable[[TransitionPath], None], in_function: bool = False,
+        complete: Callable[[TransitionPath], None], function: StateNode | None = None,
     ) -> None:  # fmt: skip
         """Try paths in order; ``complete`` is what the first one does that leads to a state.
 
-        ``in_function``: of a flow chart, where a path also ends in a junction and actions are done at once.
+        ``function`` is the flow chart of a function, if they are in one.
         """
         if not transitions:
             return
+        joints = {} if function is None else joints_of(function)
         with self.writer.until("searched") as done:
-            self._try(transitions, [], scope, complete, done, in_function)
+            self._try(transitions, [], _PathSearch(scope, complete, done, function is not None, joints))
 
-    def _try(
-        self, transitions: Sequence[TransitionNode], path: TransitionPath, scope: TextScope,
-        complete: Callable[[TransitionPath], None], done: Var, in_function: bool,
-    ) -> None:  # fmt: skip
+    def _try(self, transitions: Sequence[TransitionNode], path: TransitionPath, search: _PathSearch) -> None:
         for one in transitions:
             if self.writer.dead:
                 return
             self.writer.choose(
-                self._valid(one, scope),
-                partial(self._follow, one, path, scope, complete, done, in_function),
+                self._valid(one, search.scope),
+                partial(self._follow, one, path, search),
                 partial(self._note_tested, one, False),
             )
 
@@ -54,35 +70,47 @@ class PathWriter(WordWriter):
             self.writer.assign(marker, TRUE)
             self.writer.known.pop(marker.name, None)
 
-    def _follow(
-        self, one: TransitionNode, path: TransitionPath, scope: TextScope,
-        complete: Callable[[TransitionPath], None], done: Var, in_function: bool,
-    ) -> None:  # fmt: skip
+    def _follow(self, one: TransitionNode, path: TransitionPath, search: _PathSearch) -> None:
         self._note_tested(one, True)
+        sure = one.label.guard is None or self._sure
         with self._told(one):
-            self.run(one.label.condition_actions, scope)
-            if in_function:
-                self.run(one.label.transition_actions, scope)
+            self.run(one.label.condition_actions, search.scope)
+            if search.in_function:
+                self.run(one.label.transition_actions, search.scope)
         if self.writer.dead or one.target is None:
             return
         longer = [*path, one]
         if isinstance(one.target, StateNode) or one.target.history:
-            complete(longer)  # which ends the search with all that is around it
+            search.complete(longer)  # which ends the search with all that is around it
             return
-        if not one.target.outgoing:
-            if in_function:
-                complete(longer)
-            self.writer.end(done)
+        self._go_on(one.target, longer, search, sure)
+
+    def _go_on(self, at: JunctionNode, path: TransitionPath, search: _PathSearch, sure: bool) -> None:
+        """From a junction on, to which a path has led."""
+        if at is search.joint:
+            self.writer.end(search.done)
             return
-        visits = sum(1 for other in path if other.target is one.target)
-        sure = one.label.guard is None or self._sure
+        if not at.outgoing:
+            if search.in_function:
+                search.complete(path)
+            self.writer.end(search.done)
+            return
+        visits = sum(1 for other in path[:-1] if other.target is at)
         most = MOST_VISITS if sure else self.table.visits
         if visits >= most:
             self.table.met |= set() if sure else {"visits"}
-            where = f"junction {one.target.ssid} of {one.holder.path}"
+            where = f"junction {at.ssid} of {path[-1].holder.path}"
             self.writer.fault(f"a path may go through {where} more than {most:,} times")
             return
-        self._try(one.target.outgoing, longer, scope, complete, done, in_function)
+        joint = search.joints.get(at) if len(at.outgoing) > 1 else None
+        if joint is None or joint is search.joint:
+            self._try(at.outgoing, path, search)
+            return
+        with self.writer.until("joined") as joined:
+            self._try(at.outgoing, path, replace(search, joint=joint, done=joined))
+        if not self.writer.dead:
+            last = next(one for one in self.chart.transitions if one.target is joint)
+            self._go_on(joint, [*path, last], search, sure=True)
 
     def _valid(self, one: TransitionNode, scope: TextScope) -> Expr:
         with self._told(one):
@@ -114,6 +142,8 @@ class PathWriter(WordWriter):
     def _occurs(self, event: Expression, scope: TextScope) -> Expr:
         """Whether an event is the current one, or a temporal condition holds."""
         match event:
+            case Name("tick" | "wakeup" as name) if not self._is_event(name, scope):
+                return const(not self._is_nested)
             case Name(name) | Member(_, name):
                 return const(bool(name) and scope.event == name)
         found = self.word(event, scope)

@@ -85,6 +85,8 @@ class DataTable:
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
+    keeps_names: bool = True
+    """Whether charts that are written as charts of the language name their constants."""
     remarks: dict[str, str] = field(default_factory=dict)
     """What is to be known of a model, and changes nothing of what a verdict says."""
 
@@ -114,7 +116,12 @@ class DataTable:
                 raise NotLowered(f"{name} begins as {first.expr}, which is outside its domain, {domain}")
             raw = found
         self.at_rest[name] = raw
-        return SymbolicScalar(first.kind, Var(name, domain, self.starting.get(name, raw), doc, hidden))
+        begun = self.starting.get(name, raw)
+        if begun not in domain:
+            if name in self.given:
+                raise NotLowered(f"{name} begins outside its domain, {domain}, once it is initialized")
+            begun = raw  # its range was another one in the attempt before
+        return SymbolicScalar(first.kind, Var(name, domain, begun, doc, hidden))
 
     def write(self, writer: ProgramWriter, target: SymbolicScalar, value: Expr) -> None:
         """Assign a value of the right kind to a variable."""

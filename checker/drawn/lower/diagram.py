@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.lowered import LoweredModel, RangeNotKnown
 from rovercheck.checker.drawn.lower.program import MOST_STATEMENTS, TooManyStatements
 from rovercheck.checker.drawn.lower.symbols import NotLowered
+from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.spec_model.lang.domain import Domain
@@ -19,20 +20,23 @@ MANY_STATEMENTS = 5_000
 
 
 def lowered_model(
-    model: DrawnModel, file: str, domains: Mapping[str, Domain] | None = None, step: str = ""
-) -> LoweredModel:
+    model: DrawnModel, file: str, domains: Mapping[str, Domain] | None = None, step: str = "",
+    systems: type[SystemWriter] = SystemWriter,
+) -> LoweredModel:  # fmt: skip
     """The system of a model.
 
-    ``domains`` are those of inputs and data, by name.  Raises ``NotLowered`` for what has no formula, with
-    its place, and for a datum whose range is not given.
+    ``domains`` are those of inputs and data, by name; ``systems`` makes the components.
+    Raises ``NotLowered`` for what has no formula, with its place, and for a datum whose range is not given.
     """
     try:
-        return _lowered(model, file, domains or {}, step)
+        return _lowered(model, file, domains or {}, step, systems)
     except RecursionError:
         raise NotLowered("states, blocks or expressions are nested too deeply") from None
 
 
-def _lowered(model: DrawnModel, file: str, domains: Mapping[str, Domain], step: str) -> LoweredModel:
+def _lowered(
+    model: DrawnModel, file: str, domains: Mapping[str, Domain], step: str, systems: type[SystemWriter]
+) -> LoweredModel:
     charts = {one.path: parsed_chart(one) for one in model.charts}
     for parsed in charts.values():
         if parsed.notes:
@@ -42,7 +46,7 @@ def _lowered(model: DrawnModel, file: str, domains: Mapping[str, Domain], step: 
     for _ in range(ATTEMPTS):
         table.begin()
         try:
-            found = LoweringAttempt(model, file, table, charts, step or model.step, most).lowered()
+            found = LoweringAttempt(model, file, table, charts, step or model.step, most, systems).lowered()
         except TooManyStatements as error:
             if not table.shortened():
                 if most == MOST_STATEMENTS:

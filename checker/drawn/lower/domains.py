@@ -7,9 +7,11 @@ step = 0.1                       # seconds, where the model does not say it
 [domains]
 "probe.level" = { low = 0, high = 30, resolution = 0.25 }
 mode = { values = [0, 1, 7] }
+axis = { low = -1, high = 1, resolution = "1/255" }
 ```
 """
 
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -98,14 +100,17 @@ def _domain(told: object) -> Domain:
 
 
 def _is_number(value: object) -> bool:
+    if isinstance(value, str):
+        return bool(re.fullmatch(r"-?[0-9]+/0*[1-9][0-9]*", value))
     return isinstance(value, int | Decimal) and not isinstance(value, bool)
 
 
 def _toml_number(value: Fraction) -> str:
-    """A number as TOML has it."""
+    """A number as TOML has it; a fraction that no decimal is as a text."""
     if value.denominator == 1:
         return str(value.numerator)
-    return repr(float(value))
+    shown = repr(float(value))
+    return shown if Fraction(shown) == value else f'"{value}"'
 
 
 def _toml_key(name: str) -> str:

@@ -25,6 +25,13 @@ from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
 from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.elements import ElementWriter
+from rovercheck.checker.drawn.lower.matrix_functions import (
+    EXTREMES,
+    FURTHER,
+    TYPED,
+    limit_of,
+    place_of_extreme,
+)
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
@@ -43,7 +50,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.parsed import FunctionNode
-from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var
+from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, const
 
 
 class ExpressionWriter(ElementWriter):
@@ -233,11 +240,6 @@ class ExpressionWriter(ElementWriter):
 
     def _called(self, name: str, arguments: Iterable[Expression], scope: TextScope) -> list[Symbolic]:
         given = list(arguments)
-        if name in ("zeros", "ones", "cast") and given and isinstance(given[-1], TextLiteral):
-            text = given.pop()
-            assert isinstance(text, TextLiteral)
-            made = self.value(given[0], scope) if name == "cast" else self._called(name, given, scope)[0]
-            return [each_converted(made, self.table.kinds.kind(text.value), scope.rules, self.table.kinds)]
         if (
             name == "isempty"
             and len(given) == 1
@@ -245,29 +247,60 @@ class ExpressionWriter(ElementWriter):
             and given[0].name in scope.kept
         ):
             return [truth(self.is_unset(given[0].name, scope))]
-        values: list[Symbolic] = []
-        for number_, one in enumerate(given):
-            if isinstance(one, TextLiteral):
-                continue
-            value = self.value(one, scope)
-            later = any(self._does(other, scope) for other in given[number_ + 1 :])
-            values.append(self.kept(value) if later else value)
         function = function_in(scope.node, name)
+        if name in NOTHING and name not in scope.script and function is None:
+            return []
+        own = name in scope.script or function is not None
+        texts = [] if own else [one.value for one in given if isinstance(one, TextLiteral)]
+        values = self._in_turn([one for one in given if own or not isinstance(one, TextLiteral)], scope)
         if name in scope.script:
             return self.script(scope.script[name], values, scope)
         if function is not None:
             return self.call(function, values, scope)
-        if name in BUILTINS:
-            try:
-                return [BUILTINS[name](values, scope.rules, self.table.kinds)]
-            except (ValueError, IndexError) as error:
-                raise NotLowered(f"{name} takes other arguments") from error
-        if name in NOTHING:
-            return []
+        if texts or name in TYPED:
+            return [self._typed(name, values, texts, scope)]
+        try:
+            if name in BUILTINS:
+                made = BUILTINS[name](values, scope.rules, self.table.kinds)
+                extreme = name in EXTREMES and len(values) == 1
+                return [made, place_of_extreme(name, values[0], scope.rules)] if extreme else [made]
+            if name in FURTHER:
+                return [FURTHER[name](values, scope.rules, self.table.kinds)]
+        except (ValueError, IndexError) as error:
+            raise NotLowered(f"{name} takes other arguments") from error
         if name in self.table.kinds.enumerations and len(values) == 1:
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(f"{name} is no datum, event or function that is known here")
+
+    def _in_turn(self, given: Sequence[Expression], scope: TextScope) -> list[Symbolic]:
+        """The values of arguments, each as it is before the later ones are computed."""
+        values: list[Symbolic] = []
+        for at, one in enumerate(given):
+            value = self.value(one, scope)
+            later = any(self._does(other, scope) for other in given[at + 1 :])
+            values.append(self.kept(value) if later else value)
+        return values
+
+    def _typed(
+        self, name: str, values: Sequence[Symbolic], texts: Sequence[str], scope: TextScope
+    ) -> Symbolic:
+        """A function whose last argument names a type, or is ``like`` a value."""
+        given, kinds = list(values), self.table.kinds
+        like = bool(texts) and texts[-1] == "like" and bool(given)
+        known = like or name in ("zeros", "ones", *TYPED)
+        if len(texts) > 1 or not known:
+            raise NotLowered(f"{name} takes no text here: leave {texts[0]!r} out")
+        kind = given.pop().kind if like else kinds.kind(texts[0] if texts else "int32")
+        if name in ("zeros", "ones"):
+            return each_converted(BUILTINS[name](given, scope.rules, kinds), kind, scope.rules, kinds)
+        if name in ("intmax", "intmin"):
+            return limit_of(name, kind)
+        if len(given) == 1 and name == "cast":
+            return each_converted(given[0], kind, scope.rules, kinds)
+        if len(given) == 1 and name == "isa":
+            return truth(const(given[0].kind == kind))
+        raise NotLowered(f"{name} takes other arguments")
 
     def is_unset(self, name: str, scope: TextScope) -> Expr:
         """Whether nothing was assigned to a persistent variable so far."""

@@ -79,6 +79,7 @@ class ChartWriter(TransitionWriter):
         self.writer.known[self.view.begun.name] = Const(1, self.view.begun.sort)
 
     def _begin_step(self) -> None:
+        self._begin_regions()
         for node in self.chart.root.every():
             self.times.begin(node, self._is_timed(node))
         if self.chart.drawn.initializes_outputs:
@@ -143,6 +144,7 @@ class ChartWriter(TransitionWriter):
             self._execute_root()
         else:
             self.writer.choose(self._has_begun, self._execute_root, self._first)
+            self.writer.end_alike(self.view.begun.name)
         self._stack.pop()
 
     def _first(self) -> None:
@@ -220,8 +222,9 @@ class ChartWriter(TransitionWriter):
 
     def _execute_children(self, node: StateNode) -> None:
         if node.parallel:
+            sure = node.parent is None and self._stays and len(self._stack) == 1
             for region in node.children:
-                self.writer.choose(self.active(region), partial(self._execute, region))
+                self.writer.choose(TRUE if sure else self.active(region), partial(self._execute, region))
         else:
             self._for_active_child(node, node.children, self._execute)
 
@@ -251,11 +254,6 @@ class ChartWriter(TransitionWriter):
         if scope.left is not None and scope.alive is not None:
             self.writer.end(scope.left, folded(~scope.alive()))
         return True
-
-    def _is_event(self, name: str, scope: TextScope) -> bool:
-        if scope.function and f"{scope.function}:{name}" in self.writer.locals:
-            return False
-        return any(name in node.events for node in self.chart.root.every())
 
     def _call_out(self, name: str) -> None:
         """Execute what a function call calls, here and now."""

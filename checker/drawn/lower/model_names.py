@@ -14,6 +14,8 @@ class ModelNames:
         self._charts = _chart_names(model.charts)
         self._taken = _shared_names(model)
         self._blocks: dict[str, str] = {}
+        self.data_written = _written(model)
+        """The names of data that charts write, and of ports."""
         self._data = {one.name for chart in model.charts for one in chart.content.data}
         self._data |= {one.shown for one in model.system.blocks if one.kind in ("Inport", "Outport")}
 
@@ -44,6 +46,12 @@ def _chart_names(charts: Sequence[DrawnChart]) -> dict[str, str]:
         one.path: name if last.count(name) == 1 else plain_name(one.path.replace("/", "_"))
         for one, name in zip(charts, last, strict=True)
     }
+
+
+def _written(model: DrawnModel) -> set[str]:
+    every = (one for chart in model.charts for level in chart.content.every_level() for one in level.data)
+    ports = {one.shown for one in model.system.blocks if one.kind in ("Inport", "Outport")}
+    return ports | {one.name for one in every if one.scope != "input"}
 
 
 def _shared_names(model: DrawnModel) -> set[str]:

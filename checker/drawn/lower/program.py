@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import reduce
 
+from rovercheck.checker.drawn.lower.first_step import written_once
 from rovercheck.checker.drawn.lower.symbols import (
     TWO_TYPES,
     Symbolic,
@@ -20,6 +21,7 @@ from rovercheck.spec_model.lang.domain import Bool, Domain, Num, boolean, common
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_of, rescale
 from rovercheck.spec_model.lang.programmed import FAULT, without
 from rovercheck.spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.walk import variables
 
 MOST_STATEMENTS = 100_000
 
@@ -128,6 +130,12 @@ class ProgramWriter:
             self._rows.append(If(condition, tuple(one), tuple(other)))
             self._grow(1)
         self._skip(first_raised | then_raised, sure=one_ended and other_ended)
+
+    def end_alike(self, flag: str) -> None:
+        """Write once what both sides of the last choice do, which is one by a flag."""
+        last = self._rows[-1] if self._rows else None
+        if isinstance(last, If) and last.read == {flag}:
+            self._rows[-1:] = written_once(last, flag)
 
     def _side(self, write: Callable[[], None]) -> tuple[list[Statement], bool, dict[str, Var]]:
         """The statements of one of two sides, whether it ends something in any case, and what it may end."""
@@ -284,13 +292,19 @@ class ProgramWriter:
         self._grow(1)
         return SymbolicScalar(value.kind, var)
 
-    def written(self) -> tuple[Statement, ...]:
-        """All statements, without assignments to temporaries that nothing reads."""
+    def fresh(self, temporaries: Mapping[str, Var]) -> "ProgramWriter":
+        """One for another text of the same chart: its further temporaries have other names."""
+        made = ProgramWriter(self.name, self._most)
+        made._numbers, made.temporaries = self._numbers, dict(temporaries)
+        return made
+
+    def written(self, *after: Expr) -> tuple[Statement, ...]:
+        """All statements, without assignments to temporaries that nothing reads, nor a formula after them."""
         self._close()
         made, before = tuple(self._rows), -1
         while before != len(self.temporaries):
             before = len(self.temporaries)
-            needed = reads(made)
+            needed = reads(made) | variables(*after)
             unread = {name for name in self.temporaries if name not in needed}
             made = without(made, unread)
             for name in unread:

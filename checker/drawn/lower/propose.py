@@ -1,6 +1,6 @@
 """Domains that may be meant for inputs and data of which a file says no range, for a person to correct."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -43,7 +43,28 @@ def proposed_domains(
         else:
             break
     uses = uses_of(lowered)
-    return [_proposed(name, *uses.get(name, (set(), False)), name in lowered.inputs) for name in wide]
+    found = [_proposed(name, *uses.get(name, (set(), False)), name in lowered.inputs) for name in wide]
+    idle = {name for name in wide if name not in lowered.inputs and not uses.get(name, (set(), False))[0]}
+    return [one for one in found if one.name not in idle - _needed(model, file, found, idle, given, step)]
+
+
+def _needed(
+    model: DrawnModel, file: str, found: Sequence[ProposedDomain], idle: Collection[str],
+    given: Mapping[str, Domain], step: str,
+) -> set[str]:  # fmt: skip
+    """Of data that are compared with nothing, those whose range does not follow from that of the others."""
+    needed = set[str]()
+    for _ in range(ATTEMPTS):
+        domains = {one.name: one.domain for one in found if one.name not in idle or one.name in needed}
+        try:
+            lowered_model(model, file, {**domains, **given}, step)
+        except RangeNotKnown as error:
+            if not set(error.names) - needed:
+                break
+            needed |= set(error.names)
+        else:
+            return needed
+    return set(idle)
 
 
 def _proposed(name: str, constants: set[Fraction], otherwise: bool, is_input: bool) -> ProposedDomain:

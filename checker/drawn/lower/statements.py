@@ -228,6 +228,8 @@ class StatementWriter(ExpressionWriter):
             self._write(targets[0], new, scope)
             return
         given = self.several(value, scope)
+        if isinstance(value, Applied) and value.function == Name("size"):
+            given = list(flat(given[0]))
         if len(given) < len(targets):
             raise NotLowered(f"{len(targets)} values are taken of a function that gives {len(given)}")
         for target, one in zip(targets, given, strict=False):

@@ -71,6 +71,7 @@ class SystemWriter(CalledBlockWriter):
         if not node.control and not is_called(block):
             inner = self._inner(block.name, system)
             components, ends = inner.lowered(self._values(node))
+            self.own |= inner.own
             node.outputs = list(ends)
             self.remembered += inner.remembered
             return list(components)
@@ -91,7 +92,7 @@ class SystemWriter(CalledBlockWriter):
         return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
 
     def _inner(self, name: str, system: DrawnSystem) -> "SystemWriter":
-        return SystemWriter(system, self.context, f"{self._path}_{name}".strip("_"))
+        return type(self)(system, self.context, f"{self._path}_{name}".strip("_"))
 
     def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         for one in system.blocks:
@@ -100,6 +101,7 @@ class SystemWriter(CalledBlockWriter):
                     raise NotLowered(f"{name} = reset: held is known here")
         inner = self._inner(node.block.name, system)
         components, ends = inner.lowered(self._values(node))
+        self.own |= inner.own
         held, node.outputs = self._held(inner, ends, components)
         return [*components, *held, *inner.delays()]
 
@@ -108,7 +110,7 @@ class SystemWriter(CalledBlockWriter):
     ) -> tuple[list[Component], list[Symbolic]]:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.context.table, list[Symbolic](), list[Component]()
-        written = {name for part in parts(components) for name in part.written}
+        written = {name for part in parts(components) for name in part.written} | inner.own
         cells_ = (one.expr for _, memory, _ in inner.remembered for _, one in leaves(memory, ""))
         memories = {var.name: var for var in cells_ if isinstance(var, Var)}
         for end, value in zip(inner.ends, ends, strict=True):

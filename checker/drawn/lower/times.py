@@ -115,7 +115,7 @@ class ChartTimes:
 
     def limit(self, name: str, limit: Expr, unit: str, node: StateNode, event: str) -> Expr:
         """``after``, ``before``, ``at`` and ``every``: whether a state has been active for so long."""
-        steps = limit
+        steps, unit = limit, "tick" if unit == "wakeup" else unit
         if unit in UNITS:
             steps = folded(limit / self.seconds(unit))
         most = -(-least_and_greatest(steps)[1] // 1)
@@ -137,7 +137,7 @@ class ChartTimes:
 
     def count(self, unit: str, node: StateNode, most: int | None) -> Expr:
         """How many steps a state has been active, or how often it has seen an event."""
-        what = "steps" if unit in UNITS or unit == "tick" else f"seen {unit}"
+        what = "steps" if unit in (*UNITS, "tick", "wakeup") else f"seen {unit}"
         return self._counted(self._counter(node, what, UNBOUNDED if most is None else most), most)
 
     def held(self, operator: Expression, condition: Expr, node: StateNode, most: int | None) -> Expr:

@@ -18,7 +18,7 @@ class TransitionWriter(FunctionWriter):
     def _take(self, path: TransitionPath, source: StateNode) -> None:
         """Leave, act and enter along a path; what an early return drops is dropped."""
         self._fired(path, source)
-        around = _around_all(self.chart.root, path)
+        around = around_all(self.chart.root, path)
         with self._dropping():
             self._exit_children(around)
             for one in path:
@@ -81,7 +81,7 @@ class TransitionWriter(FunctionWriter):
                     assert self._dropped is not None
                     self.writer.end(self._dropped, folded(~self.active(node)))
                 further = chain[1:] if chain and chain[0] is region else []
-                already = self.active(region) if self.sends else FALSE
+                already = self.active(region) if region.ssid in self._regions else FALSE
                 self.writer.choose(already, lambda: None, partial(self._enter, region, further))
         elif chain:
             self._enter(chain[0], chain[1:])
@@ -122,7 +122,7 @@ class TransitionWriter(FunctionWriter):
                 self.writer.fault(f"no default transition of {node.path} may lead to a state")
 
 
-def _around_all(root: StateNode, path: Sequence[TransitionNode]) -> StateNode:
+def around_all(root: StateNode, path: Sequence[TransitionNode]) -> StateNode:
     """The innermost state that holds all of a path: an outer transition is drawn outside its source."""
     chains = [list(one.holder.lineage())[::-1] for one in path]
     found = root
@@ -141,4 +141,4 @@ def _chain(around: StateNode, target: StateNode | JunctionNode) -> list[StateNod
     return chain[:at][::-1]
 
 
-__all__ = ["TransitionWriter"]
+__all__ = ["TransitionWriter", "around_all"]

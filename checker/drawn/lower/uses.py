@@ -10,13 +10,19 @@ from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.programmed import ProgrammedChart
+from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import nodes
 
 
 def uses_of(lowered: LoweredModel) -> dict[str, tuple[set[Fraction], bool]]:
     """Of each variable the constants that it is compared with, and whether it is used otherwise, too."""
+    return constants_of(lowered.system)
+
+
+def constants_of(system: System) -> dict[str, tuple[set[Fraction], bool]]:
+    """The same of a system."""
     found: dict[str, tuple[set[Fraction], bool]] = {}
-    for formula in _formulas(lowered):
+    for formula in _formulas(system):
         for name, constant in _used(formula):
             constants, otherwise = found.get(name, (set(), False))
             found[name] = (
@@ -26,12 +32,12 @@ def uses_of(lowered: LoweredModel) -> dict[str, tuple[set[Fraction], bool]]:
     return found
 
 
-def _formulas(lowered: LoweredModel) -> Iterator[Expr]:
-    for part in parts(lowered.system.components):
+def _formulas(system: System) -> Iterator[Expr]:
+    for part in parts(system.components):
         if isinstance(part, ProgrammedChart):
             yield from expressions(part.program.statements)
-        elif isinstance(part, Block):
-            yield from expressions(part.do)
+        else:
+            yield from expressions(part.do) if isinstance(part, Block) else part.expressions
 
 
 def _used(formula: Expr) -> Iterator[tuple[str, Fraction | None]]:
@@ -66,10 +72,10 @@ def _below(formula: Expr, left_out: set[int]) -> Iterator[Expr]:
 
 
 def _plain(side: Expr) -> Expr:
-    """A side of a comparison without the change of its resolution."""
-    while isinstance(side, Apply) and side.op is Op.SCALE:
-        side = side.args[0]
+    """A side of a comparison without names, and without the change of its resolution."""
+    while isinstance(side, Named) or (isinstance(side, Apply) and side.op is Op.SCALE):
+        side = side.body if isinstance(side, Named) else side.args[0]
     return side
 
 
-__all__ = ["uses_of"]
+__all__ = ["constants_of", "uses_of"]

@@ -67,7 +67,7 @@ class ChartView:
                 " → ".join(filter(None, (self.label(one) for one in path))),
                 0 if source is None else path[0].drawn.order,
                 event or None,
-                self._place(path[0].drawn.line, path[0].drawn.ssid),
+                self.place(path[0].drawn.line, path[0].drawn.ssid),
             )
         return Var(name, boolean, 0, hidden=True)
 
@@ -78,11 +78,17 @@ class ChartView:
         return Var(name, boolean, 0, hidden=True)
 
     @staticmethod
+    def junction_name(one: JunctionNode) -> str:
+        """The name of a junction, which has none in the drawing."""
+        return _junction(one)
+
+    @staticmethod
     def label(one: TransitionNode) -> str:
         """The label of a transition in one line; nothing where it has none."""
         return "" if label_of(one.drawn) == "?" else label_of(one.drawn)
 
-    def _place(self, line: int, ssid: int) -> Place:
+    def place(self, line: int, ssid: int) -> Place:
+        """Where an element of the chart stands in the file."""
         element = f" SSID {ssid}" if ssid else ""
         return Place(f"{self._file}, {self.chart.drawn.part}{element}", max(1, line))
 
@@ -100,7 +106,7 @@ class ChartView:
                 for node in root.every() if node.inner
             },
             figure=figure_of(self.chart, self.paths, _junction),
-            text=f"The chart {self.chart.drawn.path}.", place=self._place(0, 0),
+            text=f"The chart {self.chart.drawn.path}.", place=self.place(0, 0),
         )  # fmt: skip
 
     def _state(self, node: StateNode) -> State:
@@ -110,7 +116,7 @@ class ChartView:
             transitions=[self._transition(one) for one in node.outer if one.target is not None],
             junctions=self._junctions(node), parallel=node.parallel,
             default=[self._transition(one) for one in node.defaults if one.target is not None],
-            place=self._place(node.line, node.ssid),
+            place=self.place(node.line, node.ssid),
         )  # fmt: skip
 
     def _label(self, node: StateNode) -> str:
@@ -126,7 +132,7 @@ class ChartView:
 
     def _transition(self, one: TransitionNode) -> Transition:
         text = self.label(one)
-        place = self._place(one.drawn.line, one.drawn.ssid)
+        place = self.place(one.drawn.line, one.drawn.ssid)
         return Transition(self._target(one), label=LabelText(text) if text else None, place=place)
 
     def _target(self, one: TransitionNode) -> str:

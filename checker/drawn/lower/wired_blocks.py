@@ -60,6 +60,8 @@ class WiredBlocks:
         self._by_id = {node.block.id: node for node in self.nodes}
         self.remembered: list[tuple[str, Symbolic, Symbolic]] = []
         """The memories of delays here and in subsystems that run in every step, and what they get."""
+        self.own: set[str] = set()
+        """The data of charts here and in subsystems, by name."""
         found = [node for node in self.nodes if node.block.kind == "Outport"]
         self.ends = sorted(found, key=lambda node: number_of(node.block))
 

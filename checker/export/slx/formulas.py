@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from rovercheck.checker.export.slx.names import SlxNames
 from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path
-from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, show
+from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
@@ -31,7 +31,8 @@ class FormulaWriter:
     """Formulas of a system.
 
     ``states`` are the names of states in the chart that is written, by chart and path; those of a chart
-    itself have the empty path.
+    itself have the empty path.  ``read`` are the variables that were read since ``begin``; among them are
+    signals that say whether states of other charts of Simulink are active, which are ``asked`` for.
     """
 
     def __init__(
@@ -39,6 +40,9 @@ class FormulaWriter:
     ) -> None:
         self.names, self.enumerations = SlxNames(prefix), dict[str, Mapping[str, int]]()
         self.states, self.chooses = states, False
+        self.read: dict[str, Var] = {}
+        self.asked: dict[str, tuple[str, Path]] = {}
+        self._own = {chart.name for chart in charts}
         self._types = SlxNames()
         self._sorts: dict[Enum, str] = {}
         self._levels = {
@@ -49,12 +53,18 @@ class FormulaWriter:
         }
         self._entered = {chart.entered.name: chart for chart in charts}
 
+    def begin(self, charts: Sequence[Chart]) -> None:
+        """From now on write what stands in one chart of Simulink, in which these are."""
+        self.read, self.asked, self.chooses = {}, {}, False
+        self._own = {chart.name for chart in charts}
+
     def __call__(self, expr: Expr, word: Word = no_words) -> str:
         """The formula, without parentheses around it."""
         match expr:
             case Const(value, sort):
                 return self.constant(value, sort)
             case Var(name):
+                self.read[name] = expr
                 return self.names(name)
             case Named(_, body):
                 return self(body, word)
@@ -142,18 +152,26 @@ class FormulaWriter:
         if not isinstance(var, Var) or not isinstance(const, Const):
             return ""
         if var.name in self._entered:
-            own = f"in({self.states[self._entered[var.name].name, ()]})"
+            own = self._active(self._entered[var.name], ())
             return own if (const.value == 1) == (op is Op.EQ) else f"~{own}"
         if var.name not in self._levels:
             return ""
         chart, path = self._levels[var.name]
         member = var.domain.show(const.value)
         if member == NOWHERE:
-            some = (self.states[chart.name, (*path, one.name)] for one in chart.states[path].states)
-            inside = " || ".join(f"in({one})" for one in some)
+            some = (self._active(chart, (*path, one.name)) for one in chart.states[path].states)
+            inside = " || ".join(some)
             return inside if op is Op.NE else f"~({inside})"
-        own = f"in({self.states[chart.name, (*path, member)]})"
+        own = self._active(chart, (*path, member))
         return own if op is Op.EQ else f"~{own}"
+
+    def _active(self, chart: Chart, path: Path) -> str:
+        if chart.name in self._own:
+            return f"in({self.states[chart.name, path]})"
+        signal = f"{'.'.join((chart.name, *path))} is active"
+        self.read[signal] = Var(signal, boolean)
+        self.asked[signal] = chart.name, path
+        return self.names(signal)
 
 
 def _call(name: str) -> Callable[[Sequence[str]], str]:

@@ -104,5 +104,9 @@ class SlxNames:
             self._known[name] = found
         return self._known[name]
 
+    def free(self, name: str) -> bool:
+        """Whether a name has no identifier yet."""
+        return name not in self._known
+
 
 __all__ = ["SlxNames", "identifier"]

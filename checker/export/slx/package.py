@@ -1,25 +1,23 @@
 """A system as a model of Simulink: its package, the dictionary of its enumerations, and its domains."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path as FilePath
 
 from rovercheck.checker.drawn.lower.domains import domains_path, lines_of
-from rovercheck.checker.export.slx.actions import ActionWriter, event_name
-from rovercheck.checker.export.slx.charts import ChartWriter, state_names
-from rovercheck.checker.export.slx.formulas import CHOICE, CHOICE_SCRIPT, FormulaWriter
+from rovercheck.checker.export.slx.blocks import ChartBlock, given
+from rovercheck.checker.export.slx.charts import state_names
+from rovercheck.checker.export.slx.diagram import Diagram
+from rovercheck.checker.export.slx.formulas import FormulaWriter
 from rovercheck.checker.export.slx.names import identifier
-from rovercheck.checker.export.slx.words import ChartWords
 from rovercheck.checker.simulink.writer.dictionaries import dictionary
 from rovercheck.checker.simulink.writer.packages import WrittenModel
-from rovercheck.spec_model.lang.action import Send, each_action
-from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.domain import Bool, Domain, Num, show
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import TRUE, Var
 from rovercheck.spec_model.lang.programmed import ProgrammedChart
-from rovercheck.spec_model.lang.system import System, enabled_in
+from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.wellformed import check_system
 
 
@@ -28,7 +26,8 @@ class SlxModel:
     """What is written of a system.
 
     ``names`` are those of its variables in Simulink, ``states`` those of its states by chart and path,
-    ``inputs`` the names of inputs and, of frozen variables, of the inputs that give them in the first step.
+    ``charts`` those of the charts of Simulink in which its charts are drawn, ``inputs`` the names of inputs
+    and, of frozen variables, of the inputs that give them in the first step.
     ``notes`` say what the file does not hold.
     """
 
@@ -38,6 +37,7 @@ class SlxModel:
     domains: Mapping[str, Domain]
     names: Mapping[str, str]
     states: Mapping[tuple[str, tuple[str, ...]], str]
+    charts: Mapping[str, str]
     inputs: Mapping[str, str]
     notes: tuple[str, ...]
 
@@ -57,9 +57,10 @@ class SlxModel:
 
 
 def simulink_of(system: System, prefix: str = "") -> SlxModel:
-    """The model of a system: one chart, with a region for each component in the order of execution.
+    """The model of a system: a chart with a region for each component in the order of execution.
 
-    All names of data begin with ``prefix``.
+    With enabled subsystems it has several charts, in the subsystems and before and after them.  All names of
+    data begin with ``prefix``.
     Raises ``ModelError`` for what Stateflow has not, with its place and a way around it.
     """
     check_system(system)
@@ -77,130 +78,69 @@ class _SystemWriter:
                     f"{system.name}: {chart.name} was read from a file, and its step is a program that no "
                     "chart of Stateflow has; write aiger, aag, btor2, smv or promela with --format."
                 )
-        for one in enabled_in(system.components):
-            inside = ", ".join(part.name for part in parts(one.components))
-            raise ModelError(
-                f"{system.name}: the subsystem of {inside} executes only while `{one.by}`, and in Stateflow "
-                "the regions of one chart execute in every step; write a system of what is in it alone."
-            )
         self.name = identifier(system.name)
         self.model = WrittenModel(self.name, step=show(Fraction(system.tick_ms, 1000)))
-        self.block, self.chart = self.model.root.chart(self.name)
-        self.chart.parallel = True
         self.formulas = FormulaWriter(system.charts, state_names(system.charts), prefix)
         self.domains: dict[str, Domain] = {}
         self.inputs: dict[str, str] = {}
         self.notes: list[str] = []
-        self.order = 0
 
     def written(self) -> SlxModel:
         """All of it."""
-        system = self.system
+        system, names = self.system, self.formulas.names
         for one in [*system.inputs.values(), *system.frozen]:  # first, so that they keep their names
-            self.formulas.names(one.name)
+            names(one.name)
+        diagram = Diagram(system, self.model.root, self.formulas, self.name)
         for one in system.inputs.values():
-            self._input(one, self.formulas.names(one.name))
-        self._frozen()
-        components = list(parts(system.components))
-        for number, part in enumerate(components):
-            later = components[number:]
-            changing = {name for other in later for name in other.written}
-            changing |= {v.name for c in later if isinstance(c, Chart) for v in (*c.locations, c.entered)}
-            if isinstance(part, Block):
-                self._region(part.name, [*ActionWriter(self.formulas, None).lines(part.do)])
-                self._data(part.temporaries, "local")
-            else:
-                self._chart(part, changing)
-        self._data([v for v in system.written.values() if not v.hidden], "output")
-        self._data([v for v in system.written.values() if v.hidden], "local")
-        if self.formulas.chooses:
-            self._choice()
+            diagram.top.ports[one.name] = self._input(one, names(one.name))
+        for one in system.frozen:
+            diagram.top.ports[given(one.name)] = self._input(one, names(given(one.name)))
+        shown = [name for name, one in system.written.items() if not one.hidden or name in diagram.carried]
+        diagram.connect(shown)
+        for block in diagram.charts:
+            self._data(block, diagram.given(block), diagram.carried)
+        for number, name in enumerate(shown, 1):
+            port = self.model.root.outport(names(name), number)
+            self.model.root.line(diagram.top.ports[name], port)
         if system.assumed is not TRUE:
             self.notes.append(f"what is assumed of its inputs is no part of the file: `{system.assumed}`")
         return SlxModel(
             self.name, self.model, self.formulas.enumerations, self.domains,
-            {name: self.formulas.names(name) for name in self._every()}, self.formulas.states, self.inputs,
+            {name: names(name) for name in self._every()}, self.formulas.states,
+            {chart.name: block.name for block in diagram.charts for chart in block.charts}, self.inputs,
             tuple(self.notes),
         )  # fmt: skip
 
     def _every(self) -> list[str]:
         return [*self.system.inputs, *self.system.written, *(v.name for v in self.system.frozen)]
 
-    def _region(self, name: str, lines: list[str]) -> None:
-        """A region that does the same in every step."""
-        self.order += 1
-        label = self.formulas.names(f"region {name}")
-        self.chart.state("\n".join([label, "en, du:", *lines]) if lines else label, None, self.order)
-
-    def _chart(self, chart: Chart, changing: set[str]) -> None:
-        words = ChartWords(chart, self.formulas, self.system.step_ms, changing, self.system.elapsed)
-        writer = ChartWriter(chart, self.chart, self.formulas, words)
-        writer.write()
-        if words.before:
-            self._region(f"{chart.name} before", words.before)
-        self.order += 1
-        writer.nodes[()].order = self.order
-        if words.after:
-            self._region(f"{chart.name} after", words.after)
-        for name, (domain, init) in words.data.items():
-            self._data([Var(name, domain, init)], "local")
-        events = {a.event for a in each_action(chart.all_actions) if isinstance(a, Send)}
-        events |= {t.event for t in chart.transitions if t.event is not None}
-        for event in sorted(events):
-            self.chart.event(self.formulas.names(event_name(chart, event)))
-
-    def _frozen(self) -> None:
-        if not self.system.frozen:
-            return
-        lines = []
-        for one in self.system.frozen:
-            given = self.formulas.names(f"{one.name}.given")
-            self._input(one, given)
-            lines.append(f"{self.formulas.names(one.name)} = {given};")
-        self._data(self.system.frozen, "local")
-        self.order += 1
-        label = self.formulas.names("region Frozen")
-        self.chart.state("\n".join([label, "en:", *lines]), None, self.order)
-
-    def _input(self, one: Var, name: str) -> None:
+    def _input(self, one: Var, name: str) -> str:
+        """The block of an input of the model."""
         kind = self.formulas.type_of(one.domain)
-        number = len(self.inputs) + 1
         self.inputs[one.name] = name
-        port = self.model.root.inport(name, number, OutDataTypeStr=kind)
-        self.model.root.line(port, f"{self.block}/{number}")
-        self.chart.data(name, "input", kind)
         if isinstance(one.sort, Num):
-            self.domains[name] = _decimal(one)
+            self.domains[name] = _numbers(one)
         elif len(one.domain) < (2 if isinstance(one.sort, Bool) else len(one.sort.members)):
             self.notes.append(f"{name} has only these values: {one.domain}")
+        return self.model.root.inport(name, len(self.inputs), OutDataTypeStr=kind)
 
-    def _data(self, some: "tuple[Var, ...] | list[Var]", scope: str) -> None:
-        for one in some:
-            name = self.formulas.names(one.name)
-            kind = self.formulas.type_of(one.domain)
-            self.chart.data(name, scope, kind, self.formulas.constant(one.init, one.sort))
-            if isinstance(one.sort, Num):
-                self.domains[name] = _decimal(one)
-            if scope == "output":
-                number = sum(b.kind == "Outport" for b in self.model.root.blocks) + 1
-                port = self.model.root.outport(name, number)
-                self.model.root.line(f"{self.block}/{number}", port)
-
-    def _choice(self) -> None:
-        made = self.chart.function(f"y = {CHOICE}(c, a, b)", script=CHOICE_SCRIPT)
-        for name, kind in (("c", "boolean"), ("a", "double"), ("b", "double")):
-            self.chart.data(name, "function input", kind, holder=made)
-        self.chart.data("y", "function output", "double", holder=made)
+    def _data(self, block: ChartBlock, outputs: Sequence[Var], carried: Collection[str]) -> None:
+        """The data of a chart: its outputs in the order of its ports, then those of its own."""
+        given_ = {one.name for one in outputs}
+        own = [one for one in (*block.written.values(), *block.local) if one.name not in given_]
+        for scope, some in (("output", outputs), ("local", own)):
+            for one in some:
+                name = self.formulas.names(one.name)
+                first = self.formulas.constant(one.init, one.sort)
+                block.chart.data(name, scope, self.formulas.type_of(one.domain), first)
+                if isinstance(one.sort, Num):
+                    shared = one.name in carried
+                    self.domains[f"{block.name}.{name}" if shared else name] = _numbers(one)
 
 
-def _decimal(one: Var) -> Domain:
-    """The domain of a number, which has decimals."""
+def _numbers(one: Var) -> Domain:
+    """The domain of a number, without its unit."""
     assert isinstance(one.sort, Num)
-    if "/" in show(one.sort.resolution):
-        raise ModelError(
-            f"{one.name} has steps of {one.sort.resolution}, which no decimal is; give it a resolution "
-            "such as 0.25."
-        )
     return Domain(Num(one.sort.resolution), one.domain.values)
 
 

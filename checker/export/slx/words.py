@@ -31,6 +31,8 @@ class ChartWords:
     step_ms: int
     changing: Collection[str]
     elapsed: Var | None = None
+    tick_ms: int = 0
+    """How long a step of the model is, where the chart is executed in few of them."""
     data: dict[str, tuple[Domain, int]] = field(default_factory=dict)
     before: list[str] = field(default_factory=list)
     after: list[str] = field(default_factory=list)
@@ -45,7 +47,14 @@ class ChartWords:
     def counts(self, word: Temporal) -> bool:
         """Whether the word is a duration that needs a counter of its own."""
         assert word.arg is not None or word.when is not When.DURATION
-        return word.when is When.DURATION and word.arg is not None and not self._steady(word.arg)
+        if word.when is not When.DURATION or word.arg is None:
+            return False
+        return self._sparse or not self._steady(word.arg)
+
+    @property
+    def _sparse(self) -> bool:
+        """Whether its timers count steps longer than those of the model, which Stateflow would count."""
+        return bool(self.tick_ms) and self.tick_ms != self.step_ms
 
     def _steady(self, condition: Expr) -> bool:
         return not variables(condition).keys() & self.changing
@@ -53,7 +62,7 @@ class ChartWords:
     def _written(self, word: Temporal, source: Path | None) -> str:
         match word.when:
             case When.AFTER if word.span is not None:
-                if word.span.unit == "ticks":
+                if word.span.unit == "ticks" or self._sparse:
                     return f"after({word.span.ticks(self.step_ms)}, tick)"
                 return f"after({self._seconds(word.span)}, sec)"
             case When.DURATION if word.span is not None and word.arg is not None:
@@ -96,7 +105,7 @@ class ChartWords:
         counter = self._datum("held", integer(0, top))
         more = [f"{counter} = min({counter} + 1, {top});"]
         if measured and self.elapsed is not None:
-            longer = f"{counter} = min({counter} + {self.formulas.names(self.elapsed.name)}, {top});"
+            longer = f"{counter} = min({counter} + {self.formulas(self.elapsed)}, {top});"
             more = [f"if {counter} > 0", f"    {longer}", "else", f"    {counter} = 1;", "end"]
         self.before += _if(self.formulas(condition), more, [f"{counter} = 0;"])
         return counter

@@ -12,13 +12,51 @@ from rovercheck.spec_model.lang.system import Statement
 from rovercheck.spec_model.lang.walk import plain
 
 _FEW = 4096
+_CLOSED = (Op.ADD, Op.SUB, Op.NEG, Op.MIN, Op.MAX)
+"""Operators that make of all numbers between two of each argument all between two."""
 
 Possible = range | frozenset[int]
 Ends = tuple[int, int]
 
 
+class _Known:
+    """What is known of formulas that were looked at last: they are in many others."""
+
+    def __init__(self) -> None:
+        self._values: dict[int, tuple[Expr, Possible]] = {}
+        self._room = 0
+
+    def of(self, expr: Expr) -> Possible | None:
+        """What is known of a formula; ``None`` if nothing is."""
+        found = self._values.get(id(expr))
+        return found[1] if found is not None and found[0] is expr else None
+
+    def note(self, expr: Expr, values: Possible) -> None:
+        """Know this, and forget all before if that takes too much room."""
+        self._room -= 1 if isinstance(values, range) else len(values)
+        if self._room < 0:
+            self._values.clear()
+            self._room = _ROOM
+        self._values[id(expr)] = expr, values
+
+
+_ROOM = 2_000_000
+"""Values that are known at most."""
+_KNOWN = _Known()
+
+
 def possible(expr: Expr) -> Possible:
     """A superset of the raw values a formula can take, its variables ranging over their domains."""
+    if not isinstance(expr, Apply):
+        return _possible(expr)
+    found = _KNOWN.of(expr)
+    if found is None:
+        found = _possible(expr)
+        _KNOWN.note(expr, found)
+    return found
+
+
+def _possible(expr: Expr) -> Possible:
     match plain(expr):
         case Const(value, _):
             return frozenset({value})
@@ -51,9 +89,20 @@ def _image(op: Op, args: list[Possible]) -> Possible:
     count = 1
     for arg in args:
         count *= len(arg)
+    if op in _CLOSED and all(map(_is_dense, args)):
+        found = _interval(op, [_ends(a) for a in args])
+        return frozenset(found) if count <= _FEW else found
     if count <= _FEW:
         return frozenset(operate(op, *values) for values in product(*args))
     return _interval(op, [_ends(a) for a in args])
+
+
+def _is_dense(values: Possible) -> bool:
+    """Whether all whole numbers between two are there."""
+    if isinstance(values, range):
+        return True
+    low, high = _ends(values)
+    return len(values) == high - low + 1
 
 
 def _interval(op: Op, ends: Sequence[Ends]) -> range:

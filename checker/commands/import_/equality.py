@@ -1,0 +1,143 @@
+"""Whether a written model does in every run what the drawn one does: proved, if that is found soon."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from random import Random
+
+from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.drawn.lower.uses import constants_of
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.model.two_readings import interesting
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, StoredInvariant, Violated
+from rovercheck.checker.verify.searches import SearchSettings
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import Domain, Enum, Num
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, all_of
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
+
+SECONDS = 20.0
+RUNS, STEPS = 20, 50
+AS_DRAWN = "as drawn: "
+"""What the names of variables of the drawn model begin with beside the written one."""
+
+
+@dataclass(frozen=True)
+class Equality:
+    """``proved``: both do the same in all runs.  ``difference`` is a run in which they do not.
+
+    Neither: ``how`` says why there is no answer.
+    """
+
+    proved: bool = False
+    how: str = ""
+    difference: str = ""
+
+
+def equality_of(written: System, drawn: System, seconds: float = SECONDS) -> Equality:
+    """Decide whether two systems of the same inputs give all data and active states of one name alike."""
+    try:
+        both, same, pairs = _beside(written, lower(drawn))
+        if difference := _in_runs(both, pairs):
+            return Equality(difference=difference)
+        claim = always("EQUAL", "Both models do the same.", that=same, covers=["EQUAL"], on=both.name)
+        search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
+        [found] = results([claim], {both.name: both}, search, quiet=True)
+    except ModelError as error:
+        return Equality(how=str(error).splitlines()[0])
+    match found.verdict:
+        case Proved(Exhausted() | Inductive() | StoredInvariant() as evidence):
+            return Equality(proved=True, how=evidence.how)
+        case Violated():
+            return Equality(difference="in a run that a search has found")
+    return Equality(how="that it does in every run was not decided in the time for it")
+
+
+def _in_runs(both: System, pairs: Mapping[str, tuple[Var, Var]]) -> str:
+    """A difference in runs of random values, and of those on both sides of each limit, held for a while."""
+    random = Random(1)
+    near = constants_of(both)
+    values = {
+        name: list(interesting(var, near.get(name, ((), False))[0])) for name, var in both.inputs.items()
+    }
+    for _ in range(RUNS):
+        run, left, given = Interpreter(both), dict.fromkeys(values, 0), dict[str, int]()
+        for tick in range(1, STEPS + 1):
+            for name, some in values.items():
+                left[name] -= 1
+                if left[name] < 0:
+                    given[name] = _raw(both.inputs[name], random.choice(some))
+                    left[name] = random.choice((0, 0, 1, 3, 20))
+            try:
+                run.step(given)
+            except ModelError:  # a datum has left its domain, which a check tells
+                break
+            at = run.valuation()
+            wrong = [name for name, (one, other) in pairs.items() if at[one.name] != at[other.name]]
+            if wrong:
+                return f"in tick {tick} of a random run, in {', '.join(wrong)}"
+    return ""
+
+
+def _raw(var: Var, value: float) -> int:
+    resolution = var.sort.resolution if isinstance(var.sort, Num) else Fraction(1)
+    return round(Fraction(str(value)) / resolution)
+
+
+def _beside(written: System, drawn: TransitionSystem) -> tuple[System, Expr, Mapping[str, tuple[Var, Var]]]:
+    """One system that does both, the condition that both have done the same, and what it compares by name."""
+    inputs = {one.name for one in drawn.inputs}
+    renamed = {one.name: _apart(one) for one in (*drawn.variables, *drawn.temps)}
+    temporaries = [renamed[one.name] for one in drawn.temps]
+    step = tuple(_renamed_actions(drawn.step, renamed))
+    own = {one.name: one for one in written.written.values()}
+    own |= {place.name: place for chart in written.charts for place in chart.locations}
+    pairs = {
+        one.name: (own[one.name], renamed[one.name])
+        for one in drawn.variables
+        if one.name in own and own[one.name].sort == one.sort and one.name not in inputs
+    }
+    block = Block("As drawn", step, temporaries=temporaries)
+    both = in_order("both", *written.components, block, tick_ms=written.tick_ms, step_ms=written.step_ms)
+    return both, all_of(*(one == other for one, other in pairs.values())), pairs
+
+
+def _apart(one: Var) -> Var:
+    """A variable of the drawn model, which says nothing of the charts of the written one."""
+    name = f"{AS_DRAWN}{one.name}"
+    if isinstance(one.sort, Enum) and one.sort.name == "Entered":
+        return Var(name, Domain(replace(one.sort, name=name), one.domain.values), one.init)
+    return replace(one, name=name)
+
+
+def _renamed_actions(actions: "tuple[Action, ...]", names: Mapping[str, Var]) -> Iterator[Action]:
+    for one in actions:
+        match one:
+            case Assign(var, value):
+                yield Assign(names.get(var.name, var), _renamed(value, names))
+            case If(condition, then, otherwise):
+                yield If(
+                    _renamed(condition, names), tuple(_renamed_actions(then, names)),
+                    tuple(_renamed_actions(otherwise, names)),
+                )  # fmt: skip
+
+
+def _renamed(expr: Expr, names: Mapping[str, Var]) -> Expr:
+    match expr:
+        case Var(name):
+            return names.get(name, expr)
+        case Named(name, body):
+            return _renamed(body, names)
+        case Temporal(when, arg, span, strict) if arg is not None:
+            return Temporal(when, _renamed(arg, names), span, strict)
+        case Apply(op, args, sort):
+            return Apply(op, tuple(_renamed(one, names) for one in args), sort)
+    return expr
+
+
+__all__ = ["Equality", "equality_of"]

@@ -1,0 +1,1 @@
+"""What is drawn as charts of the language: states, transitions and actions that a person can edit."""

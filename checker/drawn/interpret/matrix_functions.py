@@ -1,0 +1,189 @@
+"""Further functions of MATLAB and C: operators by their names, sizes, sums along vectors, limits of types."""
+
+from collections.abc import Callable, Mapping, Sequence
+from math import fmod, inf, isfinite, isinf, pi
+
+from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.interpret.functions import BUILTINS, Builtin
+from rovercheck.checker.drawn.interpret.operations import binary, unary
+from rovercheck.checker.drawn.interpret.values import (
+    WHOLE,
+    MatlabValue,
+    NumberRules,
+    Scalar,
+    array,
+    converted,
+    double,
+    logical,
+    scalar,
+    scalars,
+    shape,
+)
+
+Arguments = Sequence[MatlabValue]
+SIGNS: Mapping[str, str] = {
+    "plus": "+", "minus": "-", "times": ".*", "mtimes": "*", "rdivide": "./", "mrdivide": "/", "power": ".^",
+    "mpower": "^", "eq": "==", "ne": "!=", "lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&",
+    "or": "|",
+}  # fmt: skip
+"""Operators by the names of their functions."""
+
+
+def _operator(sign: str) -> Builtin:
+    def apply(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+        left, right = arguments
+        return binary(sign, left, right, rules)
+
+    return apply
+
+
+def _before(sign: str) -> Builtin:
+    return lambda arguments, rules: unary(sign, arguments[0], rules)
+
+
+def _unlike(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    left, right = (unary("!", one, rules) for one in arguments)
+    return binary("!=", left, right, rules)
+
+
+def _of_c(change: Callable[[float, float], float]) -> Builtin:
+    """A function of C's library, which computes with real numbers."""
+
+    def apply(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+        left, right = (float(scalar(one).value) for one in arguments)
+        return double(change(left, right))
+
+    return apply
+
+
+def _power(base: float, exponent: float) -> float:
+    return inf if base == 0 and exponent < 0 else base**exponent
+
+
+def _remainder(left: float, right: float) -> float:
+    if not right or isinf(left):
+        raise DrawnFault("the remainder of a division by 0")
+    return fmod(left, right)
+
+
+def _integer_quotient(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    """``idivide``, which cuts towards 0."""
+    left, right = map(scalar, arguments)
+    kind = binary("+", left, right, rules).kind
+    if kind not in WHOLE:
+        raise DrawnFault("idivide divides integers: convert one of them, as in int32(x)")
+    if not right.value:
+        return binary("/", left, right, NumberRules(False, rules.saturates))
+    cut = abs(int(left.value)) // abs(int(right.value))
+    return converted(Scalar("literal", cut if (left.value < 0) == (right.value < 0) else -cut), kind, rules)
+
+
+def _size(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    rows, columns = shape(arguments[0])
+    if len(arguments) == 1:
+        return array([double(rows), double(columns)], 1, 2)
+    along = int(scalar(arguments[1]).value)
+    return double({1: rows, 2: columns}.get(along, 1))
+
+
+def _product(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    found: MatlabValue = double(1)
+    for one in scalars(arguments[0]):
+        found = binary("*", found, one, rules)
+    return found
+
+
+def _mean(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    total = BUILTINS["sum"](arguments, rules)
+    return binary("/", total, double(len(scalars(arguments[0]))), rules)
+
+
+def _running_sum(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    [value] = arguments
+    if min(shape(value)) > 1:
+        raise DrawnFault("cumsum of a matrix: take its rows one by one")
+    made = list(scalars(value)[:1])
+    for one in scalars(value)[1:]:
+        made.append(scalar(binary("+", made[-1], one, rules)))
+    return array(made, *shape(value))
+
+
+def _scalar_product(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    left, right = (scalars(one) for one in arguments)
+    if len(left) != len(right):
+        raise DrawnFault(f"dot of vectors with {len(left)} and {len(right)} elements")
+    made = [scalar(binary("*", one, other, rules)) for one, other in zip(left, right, strict=True)]
+    return BUILTINS["sum"]([array(made, 1, len(made))], rules)
+
+
+def _flipped(rows: bool, columns: bool) -> Builtin:
+    def apply(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+        value = arguments[0]
+        down, across = shape(value)
+        lines = [list(scalars(value)[n * across : (n + 1) * across]) for n in range(down)]
+        lines = lines[::-1] if rows else lines
+        return array((one for line in lines for one in (line[::-1] if columns else line)), down, across)
+
+    return apply
+
+
+def _flip(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    row = shape(arguments[0])[0] == 1
+    return _flipped(not row, row)(arguments, rules)
+
+
+def _shifted(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    """``circshift`` of a vector."""
+    every, by = list(scalars(arguments[0])), scalar(arguments[1]).value
+    if min(shape(arguments[0])) > 1:
+        raise DrawnFault("circshift is known of a vector, by a constant")
+    at = -int(by) % len(every)
+    return array(every[at:] + every[:at], *shape(arguments[0]))
+
+
+def _is_member(arguments: Arguments, rules: NumberRules) -> MatlabValue:
+    value, among = arguments
+    every = {one.value for one in scalars(among)}
+    return array((logical(one.value in every) for one in scalars(value)), *shape(value))
+
+
+def _each_is(asked: Callable[[float], bool]) -> Builtin:
+    return lambda arguments, rules: array(
+        (logical(asked(one.value)) for one in scalars(arguments[0])), *shape(arguments[0])
+    )
+
+
+FURTHER: Mapping[str, Builtin] = {
+    **{name: _operator(sign) for name, sign in SIGNS.items()},
+    "not": _before("!"), "uminus": _before("-"), "uplus": _before("+"), "xor": _unlike,
+    "idivide": _integer_quotient, "size": _size, "prod": _product, "mean": _mean, "cumsum": _running_sum,
+    "dot": _scalar_product, "flip": _flip, "fliplr": _flipped(False, True), "flipud": _flipped(True, False),
+    "ismember": _is_member, "circshift": _shifted, "isinf": _each_is(isinf), "isfinite": _each_is(isfinite),
+    "nnz": lambda arguments, rules: double(sum(one.value != 0 for one in scalars(arguments[0]))),
+    "isscalar": lambda arguments, rules: logical(shape(arguments[0]) == (1, 1)),
+    "pi": lambda arguments, rules: double(pi), "eps": lambda arguments, rules: double(2**-52),
+    "fabs": lambda arguments, rules: double(abs(scalar(arguments[0]).value)), "labs": BUILTINS["abs"],
+    "fmod": _of_c(_remainder), "pow": _of_c(_power), "ldexp": _of_c(lambda value, bits: value * 2**bits),
+}  # fmt: skip
+"""By name."""
+
+
+def place_of_extreme(name: str, value: MatlabValue) -> MatlabValue:
+    """The second result of ``min`` and ``max``: where the first of the values is that they give."""
+    every = [one.value for one in scalars(value)]
+    return double(every.index(min(every) if name == "min" else max(every)) + 1)
+
+
+def limit_of(name: str, kind: str) -> MatlabValue:
+    """``intmax`` and ``intmin`` of an integer type."""
+    if kind not in WHOLE:
+        raise DrawnFault(f"{name} of {kind!r}, which is no type of integers")
+    return Scalar(kind, WHOLE[kind][name == "intmax"])
+
+
+TYPED = ("cast", "isa", "intmax", "intmin")
+"""Functions that ask for, or make, a type."""
+EXTREMES = ("min", "max")
+"""Functions with two results."""
+
+__all__ = ["EXTREMES", "FURTHER", "TYPED", "limit_of", "place_of_extreme"]

@@ -1,0 +1,452 @@
+"""Appliances and vehicles as courses on Stateflow draw them, each with a simulation by hand."""
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from tests.simulink.known.models import Known, Row
+from tests.simulink.known.packages import ChartText
+
+Outs = Iterator[tuple[float, ...]]
+
+WINDOW = ChartText(
+    "window",
+    """
+    in up boolean
+    in down boolean
+    in obstacle boolean
+    in endstop boolean
+    out moveUp boolean
+    out moveDown boolean
+    -> safe
+    state safe: en: moveUp = false; moveDown = false;\\nex: moveUp = false, moveDown = false
+        -> neutral
+        state neutral: en: moveUp = 0; moveDown = 0;
+        state moving
+            junction start
+            -> start
+            start -> auto_up: [up]
+            start -> auto_down
+            state auto_up: en: moveUp = 1; moveDown = 0;
+            state auto_down: en: moveDown = 1; moveUp = 0;
+            state hold_up: en: moveUp = 1;
+            auto_up -> hold_up: after(3, tick)[up]
+            auto_up -> auto_down: [down && !up]
+        moving -> neutral: [endstop || (in(hold_up) && !up)]
+        neutral -> moving: [up != down]
+        safe -> neutral: [up && down]/* both */{moveUp = 0; moveDown = 0;}
+    state emergency: entry: moveDown = 1; moveUp = 0;\\nexit: moveDown = 0;
+    moving -> emergency: [obstacle && moveUp]
+    emergency -> safe: [endstop]
+    emergency -> safe: after(4, tick)
+    """,
+    "C",
+)
+
+
+def _window(rows: Iterable[Row]) -> Outs:
+    state, up_out, down_out, ticks, inside = "", 0, 0, 0, 0
+    for row in rows:
+        up, down, stop = row["up"], row["down"], row["endstop"]
+        ticks += 1
+        go = ""
+        if not state:
+            go = "neutral"
+        elif state == "emergency":
+            if stop or ticks >= 4:
+                go = "neutral"
+                down_out = 0
+        elif up and down:  # the inner transition comes before the children
+            go = "neutral"
+        elif state == "neutral":
+            if up != down:
+                go = "auto_up" if up else "auto_down"
+        elif stop or (state == "hold_up" and not up):
+            go = "neutral"
+        elif row["obstacle"] and up_out:
+            go = "emergency"
+        elif state == "auto_up" and ticks >= 3 and up:
+            go = "hold_up"
+        elif state == "auto_up" and down and not up:
+            go = "auto_down"
+        if go:
+            state, ticks = go, 0
+            up_out = int(go in ("auto_up", "hold_up"))
+            down_out = int(go in ("auto_down", "emergency"))
+        inside += 1
+        yield up_out, down_out
+
+
+WASHER = ChartText(
+    "washer",
+    """
+    in start boolean
+    in door boolean
+    in prog uint8
+    out phase Enum: Phase
+    out motor int8
+    out minutes int16 = 0
+    local cycles int8 = 0
+    -> Idle
+    state Idle: en: phase = Phase.IDLE; motor = int8(0); minutes = 0;
+    subchart Busy: du: minutes = minutes + 1;\\nex: motor(:) = 0;
+        -> Fill: {switch prog, case {1, 2}, cycles = 2; case 3, cycles = 1; otherwise, cycles = 0; end}
+        state Fill: en: phase = Phase.FILL;
+        state Wash: en:\\nphase = Phase.WASH; %% both ways\\nmotor = int8(1);\\non every(2, tick): motor = -motor;
+        state Spin: en: phase = SPIN;\\nmotor = int8(100)
+        history H
+        Fill -> Wash: after(2, tick)
+        Wash -> Fill: [after(4, tick) && cycles > 0]...\\n{cycles = cycles - 1;}
+        Wash -> Spin: after(4, tick)
+        Spin -> Done: [after(3, tick)]
+    state Paused: en: phase = Phase.PAUSED;
+    state Done: entry, during: phase = Phase.DONE; if door, minutes = -1; end
+    Idle -> Busy: [start && ~door]{minutes = 0;}
+    Busy -> Paused: [door]
+    Paused -> Busy: [~door && start]
+    Done -> Idle: [door]
+    """,
+    "MATLAB",
+    files={
+        "Phase.m": "classdef Phase < Simulink.IntEnumType\n  % phases\n  enumeration\n    IDLE(0)\n    FILL (1)\n"
+        "    WASH(2)  % the long one\n    SPIN(5)\n    PAUSED(7), DONE(9)\n  end\nend\n"
+    },
+)
+
+
+def _washer(rows: Iterable[Row]) -> Outs:
+    state, last, motor, minutes, cycles, ticks, phase = "", "", 0, 0, 0, 0, 0
+    for row in rows:
+        start, door = row["start"], row["door"]
+        ticks += 1
+        go = ""
+        if not state or (state == "Done" and door):
+            go = "Idle"
+        elif state == "Idle" and start and not door:
+            minutes, go = 0, "Busy"
+        elif state in ("Fill", "Wash", "Spin"):
+            if door:
+                go, last, motor = "Paused", state, 0
+            else:
+                minutes += 1
+                if state == "Fill" and ticks >= 2:
+                    go = "Wash"
+                elif state == "Wash" and ticks >= 4 and cycles > 0:
+                    cycles, go = cycles - 1, "Fill"
+                elif state == "Wash" and ticks >= 4:
+                    go = "Spin"
+                elif state == "Wash" and ticks % 2 == 0:
+                    motor = -motor
+                elif state == "Spin" and ticks >= 3:
+                    go, last, motor = "Done", "Spin", 0
+        elif state == "Paused" and start and not door:
+            go = "Busy"
+        elif state == "Done":
+            phase = 9
+        if go == "Busy":
+            if last:
+                go = last
+            else:
+                cycles, go = {1: 2, 2: 2, 3: 1}.get(int(row["prog"]), 0), "Fill"
+        if go:
+            state, ticks = go, 0
+            phase = {"Idle": 0, "Fill": 1, "Wash": 2, "Spin": 5, "Paused": 7, "Done": 9}[go]
+            if go == "Idle":
+                motor = minutes = 0
+            elif go == "Wash":
+                motor = 1
+            elif go == "Spin":
+                motor = 100
+            elif go == "Done" and door:
+                minutes = -1
+        yield phase, motor, minutes
+
+
+VENDING = ChartText(
+    "vending",
+    """
+    in coin uint8
+    in choice uint8
+    out credit uint16
+    out change uint16
+    out stock[3] uint8 = 2
+    local price[3] uint16 = [20 35 50]
+    local i int32
+    constant NONE uint8 = 0
+    function r = worth(c)
+        takes c uint8
+        gives r uint16
+        junction a
+        junction b
+        -> a
+        a -> b: [c == 1]{r = 5;}
+        a -> b: [c == 2]{r = 10;}
+        a -> b: [c == 0x3]{r = 50u;}
+        a -> b: {r = 0;}
+    function sell(k)
+        takes k int32
+        junction p
+        junction q
+        junction n
+        -> p
+        p -> q: [stock[k] > 0 && credit >= price[k]]{stock[k]--; credit -= price[k];}
+        q -> n: {change = credit; credit = 0;}
+    -> Wait
+    state Wait: en: change = 0; du: credit = credit + worth(coin);
+    state Sold
+    junction loop
+    Wait -> loop: [choice != NONE]{i = 0;}
+    loop -> loop: [i < 3 && i != choice - 1]{i++;}
+    loop -> Sold: [i < 3]{sell(i);}/i = 100;
+    Sold -> Wait: [choice == NONE]
+    """,
+)
+
+
+def _vending(rows: Iterable[Row]) -> Outs:
+    state, credit, change, stock = "", 0, 0, [2, 2, 2]
+    for row in rows:
+        coin, choice = int(row["coin"]), int(row["choice"])
+        if not state:
+            state = "Wait"
+        elif state == "Wait":
+            if 1 <= choice <= 3:
+                price = (20, 35, 50)[choice - 1]
+                if stock[choice - 1] and credit >= price:
+                    stock[choice - 1] -= 1
+                    change, credit = credit - price, 0
+                state = "Sold"
+            else:
+                credit = (credit + {1: 5, 2: 10, 3: 50}.get(coin, 0)) % 65536
+        elif choice == 0:
+            state, change = "Wait", 0
+        yield credit, change, *stock
+
+
+ELEVATOR = ChartText(
+    "elevator",
+    """
+    in calls[4] boolean
+    in closed boolean
+    out floor_ uint8 = 1
+    out dir int8
+    out open boolean
+    local wanted[4] boolean = [false false false false]
+    function d = next(w, at, before)
+        takes w[4] boolean
+        takes at uint8
+        takes before int8
+        gives d int8
+        script %%SCRIPT%%
+    -> Rest
+    state Rest: en: dir = int8(0);
+    state Move: on every(2, tick): floor_ = floor_ + double(dir);
+    state Open: en: open = true; wanted(floor_) = false;\\nex: open = false;
+    Rest -> Open: [latch() && wanted(floor_)]
+    Rest -> Move: [any(wanted)]{dir = next(wanted, floor_, dir);}
+    Move -> Open: [latch() && wanted(floor_) && temporalCount(tick) >= 2]
+    Open -> Rest: [after(2, tick) && closed && latch() && ~any(wanted)]
+    Open -> Move: [after(2, tick) && closed && latch() && any(wanted)]{dir = next(wanted, floor_, dir);}
+    function y = latch()
+        gives y boolean
+        script function y = latch()\\nfor k = 1:4\\nwanted(k) = wanted(k) || calls(k);\\nend\\ny = true;\\nend
+    """.replace(
+        "%%SCRIPT%%",
+        "function d = next(w, at, before)\\nabove = false; below = false;\\nfor k = 1:4\\n"
+        "  if w(k) && k > at, above = true; end\\n  if w(k) && k < at\\n    below = true;\\n  end\\nend\\n"
+        "switch before\\n  case 1\\n    if above, d = int8(1); else d = int8(-1); end\\n"
+        "  case -1\\n    if below, d = int8(-1); else, d = int8(1); end\\n  otherwise\\n"
+        "    d = int8(above) - int8(~above & below);\\nend",
+    ),
+    "MATLAB",
+)
+
+
+def _next(wanted: Sequence[bool], at: int, before: int) -> int:
+    above, below = any(wanted[at:]), any(wanted[: at - 1])
+    if before == 1:
+        return 1 if above else -1
+    if before == -1:
+        return -1 if below else 1
+    return int(above) - int(not above and below)
+
+
+def _elevator(rows: Iterable[Row]) -> Outs:
+    state, at, go, opened, wanted, ticks = "", 1, 0, 0, [False] * 4, 0
+    for row in rows:
+        calls = [bool(row[f"calls({k})"]) for k in range(1, 5)]
+        ticks += 1
+        to = ""
+        if not state:
+            to = "Rest"
+        elif state == "Rest":
+            wanted = [a or b for a, b in zip(wanted, calls, strict=True)]
+            if wanted[at - 1]:
+                to = "Open"
+            elif any(wanted):
+                go, to = _next(wanted, at, go), "Move"
+        elif state == "Move":
+            wanted = [a or b for a, b in zip(wanted, calls, strict=True)]
+            if wanted[at - 1] and ticks >= 2:
+                to = "Open"
+            elif ticks % 2 == 0:
+                at += go
+        elif ticks >= 2 and row["closed"]:
+            wanted = [a or b for a, b in zip(wanted, calls, strict=True)]
+            if any(wanted):
+                go = _next(wanted, at, go)
+                to = "Move"
+            else:
+                to = "Rest"
+            opened = 0
+        if to:
+            state, ticks = to, 0
+            if to == "Rest":
+                go = 0
+            elif to == "Open":
+                opened = 1
+                wanted[at - 1] = False
+        yield at, go, opened
+
+
+CHECKSUM = ChartText(
+    "checksum",
+    """
+    in byte_ uint8
+    in valid boolean
+    out crc uint8
+    out reg uint16
+    out bad boolean
+    local k uint8
+    local n uint8
+    -> Idle
+    state Idle: en: crc = 0xFF; n = 0;
+    state Run: du: reg = (reg << 1) | (byte_ & 0x01); reg ^= 0x8001; reg &= ~0x10;
+    junction head
+    junction body
+    junction shift
+    junction end
+    Idle -> Run: [valid]
+    Run -> head: [valid]{crc ^= byte_; k = 0; n++;}
+    head -> body: [k < 8]
+    head -> Idle: [n > 3]{bad = crc & 0x80;}
+    head -> end
+    body -> shift: [(crc & 0x80) != 0]{crc = (crc << 1) ^ 0x31;}
+    body -> shift: {crc <<= 1;}
+    shift -> head: {k = k + 1;}
+    """.replace("crc <<= 1;", "crc = crc << 1;"),
+)
+
+
+def _checksum(rows: Iterable[Row]) -> Outs:
+    state, crc, reg, bad, n = "", 0, 0, 0, 0
+    for row in rows:
+        byte, valid = int(row["byte_"]), row["valid"]
+        if not state:
+            state, crc, n = "Idle", 255, 0
+        elif state == "Idle":
+            if valid:
+                state = "Run"
+        else:
+            back = False
+            if valid:
+                crc ^= byte
+                n += 1
+                for _ in range(8):
+                    crc = ((crc << 1) ^ (0x31 if crc & 0x80 else 0)) & 255
+                if n > 3:
+                    bad, back = int(bool(crc & 0x80)), True
+                    state, crc, n = "Idle", 255, 0
+            if not back:
+                reg = ((((reg << 1) | (byte & 1)) & 0xFFFF) ^ 0x8001) & ~0x10 & 0xFFFF
+        yield crc, reg, bad
+
+
+ABORT = ChartText(
+    "abort",
+    """
+    in go boolean
+    in fault uint8
+    in alt uint16
+    in safe boolean
+    out mode uint8
+    out armed boolean
+    event ABORT
+    -> Pad
+    state Pad: en: mode = 0; armed = false;
+    subchart Flight
+        region Monitor
+            -> Ok
+            state Ok
+            state Bad
+            Ok -> Bad: [duration(fault > 0) >= 0.2]
+            Bad -> Ok: [fault == 0]
+            Bad -> Bad: [after(3, tick)]/send(ABORT)
+        region Modes
+            -> Low
+            state Low: en: mode = 1;\\nen: armed = true;
+            state High: en: mode = 2;
+            Low -> High: [alt > 100 && crossing(alt) == 0]
+            Low -> Tower: ABORT
+            High -> Coast: ABORT[alt > 200]
+            High -> Tower: ABORT
+    state Tower: en: mode = 3; armed = false;
+    state Coast: en: mode = 4;
+    Pad -> Flight: [go]
+    Tower -> Pad: [safe]
+    Coast -> Pad: [safe && alt < 50]
+    Flight -> Pad: [safe && fault > 8]
+    """,
+    "MATLAB",
+)
+
+
+def _abort(rows: Iterable[Row]) -> Outs:
+    state, monitor, mode, armed, held, ticks, before = "", "", 0, 0, 0, 0, None
+    for row in rows:
+        fault, alt, safe = row["fault"], row["alt"], row["safe"]
+        crossed = before == 0 < alt  # it is never below
+        before = alt
+        ticks += 1
+        if not state or (state in ("Low", "High") and safe and fault > 8):
+            state, mode, armed = "Pad", 0, 0
+        elif state == "Pad":
+            if row["go"]:
+                state, monitor, mode, armed, held = "Low", "Ok", 1, 1, 0
+        elif state == "Tower" or state == "Coast":
+            if safe and (state == "Tower" or alt < 50):
+                state, mode, armed = "Pad", 0, 0
+        else:
+            abort = False
+            if monitor == "Ok":
+                if fault <= 0:
+                    held = 0
+                if held >= 2:
+                    monitor, ticks = "Bad", 0
+            elif fault == 0:
+                monitor, held = "Ok", 0
+            elif ticks >= 3:
+                abort = True
+            if abort and state == "Low" and alt > 100 and not crossed:  # tried before the one on ABORT
+                state, mode, ticks = "High", 2, 0
+            elif abort and state == "High" and alt > 200:
+                state, mode = "Coast", 4
+            elif abort:
+                state, mode, armed = "Tower", 3, 0
+            elif state == "Low" and alt > 100 and not crossed:
+                state, mode = "High", 2
+        held = held + 1 if fault > 0 else 0
+        yield mode, armed
+
+
+APPLIANCES = (
+    Known(WINDOW, {name: (0, 0, 1) for name in ("up", "down", "obstacle", "endstop")}, _window, 400),
+    Known(WASHER, {"start": (0, 1), "door": (0, 0, 0, 0, 0, 1), "prog": (0, 1, 2, 3)}, _washer, 400),
+    Known(VENDING, {"coin": (0, 1, 2, 3), "choice": (0, 0, 0, 1, 2, 3, 4)}, _vending, 300),
+    Known(
+        ELEVATOR, {**{f"calls({k})": (0, 0, 0, 0, 1) for k in range(1, 5)}, "closed": (0, 1)}, _elevator, 300
+    ),
+    Known(
+        ABORT, {"go": (0, 1, 1), "fault": (0, 1, 1, 1, 9), "alt": (0, 10, 150, 250), "safe": (0, 0, 0, 1)},
+        _abort, 400,
+    ),
+    Known(CHECKSUM, {"byte_": (0, 1, 0x55, 0x80, 0xFF), "valid": (0, 1, 1, 1)}, _checksum, 200),
+)  # fmt: skip
