@@ -1,6 +1,7 @@
 """A whole model at work: its diagram, its charts, its MATLAB functions, tick by tick."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -139,6 +140,8 @@ class _Node:
     trigger: str = "rising"
     memory: MatlabValue | None = None
     outputs: list[MatlabValue] = field(default_factory=list)
+    typed: bool = False
+    """Whether the outputs of its system have their types, also if that was not executed yet."""
     was: list[float] = field(default_factory=list)
     """The values of its trigger in the step before."""
 
@@ -265,12 +268,27 @@ class _System:
             return self._charted(node, node.chart, values)
         if node.system is not None:
             if self._runs(node):
+                node.typed = True
                 return node.system.step(values)
+            if not node.typed:
+                node.typed, node.outputs = True, self._typed(node, node.system, values)
             return node.outputs
         try:
             return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
         except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
             raise DrawnFault("its inputs and parameters do not fit each other") from error
+
+    def _typed(self, node: _Node, system: "_System", values: Sequence[MatlabValue]) -> list[MatlabValue]:
+        """The outputs of a system before its first step: 0 in the types that a step would give them."""
+        try:
+            given = deepcopy(system, {id(self._runner): self._runner}).step(values)
+        except DrawnFault:
+            return node.outputs
+        pairs = zip(node.outputs, given, strict=True)
+        first = self._runner.types.initial
+        return [
+            first(one.kind, *shape(one)) if now.kind == "double" != one.kind else now for now, one in pairs
+        ]
 
     @staticmethod
     def _remembered(node: _Node) -> MatlabValue:
