@@ -2,9 +2,10 @@
 
     python -m benchmarks.slx_verdicts [--seconds SECONDS] [--within MINUTES] [SYSTEM ...]
 
-Every system is written, and its properties are decided on what is read from its file.  Each gets as many
-seconds; after as many minutes no further system is begun.  A line for each says what came of it, after how
-many seconds, and why nothing did.  The exit code is 1 if a verdict differs.
+Every system is written, what is read of its file is run beside it in both readings, and then its properties
+are decided on that.  Each search gets as many seconds; after as many minutes no further system is begun.  A
+line for each property says what came of it, after how many seconds, and why nothing did.  The exit code is 1
+if a run or a verdict differs.
 """
 
 import argparse
@@ -34,6 +35,10 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.rover import systems
+from tests.export.slx_runs import differences
+
+ROWS = 30
+"""Steps that each system is run for."""
 
 
 class ReadAgain(Specialiser):
@@ -145,10 +150,22 @@ def main(arguments: list[str]) -> int:
             if monotonic() - start > asked.within * 60:
                 told["not begun"] += len(by_system[name])
                 continue
+            told += _run(system, Path(folder))
             told += _decided(system, by_system[name], Path(folder), asked.seconds)
             print(f"  {name}: so far {_summary(told)}", flush=True)
     print(_summary(told))
-    return 1 if told["differs"] else 0
+    return 1 if told["differs"] or told["runs that differ"] else 0
+
+
+def _run(system: System, folder: Path) -> Counter[str]:
+    """Whether what is read of the file does the same as the system, in both readings."""
+    try:
+        rows = differences(system, folder, 1, ROWS)
+    except (AssertionError, ModelError) as error:
+        print(f"{system.name}: {error}", flush=True)
+        return Counter({"runs that differ": 1})
+    print(f"  {system.name}: {rows} steps alike in both readings", flush=True)
+    return Counter({"runs alike": 1})
 
 
 def _decided(system: System, properties: list[Property], folder: Path, seconds: float) -> Counter[str]:

@@ -294,6 +294,26 @@ def test_a_disabled_subsystem_holds_what_passes_through_it(tmp_path: Path) -> No
     assert both(runner, rows, "y2") == [3, 3, 1, 1, 2]
 
 
+def test_a_subsystem_that_was_not_executed_yet_gives_0_in_the_type_of_its_output(tmp_path: Path) -> None:
+    """The interpreter gave a double, which a delay behind it took for its type."""
+    model = WrittenModel("one", step="0.1")
+    u = model.root.inport("u", 1, OutDataTypeStr="int8")
+    block, inside = model.root.subsystem("Sub", 1, 1, "enable")
+    inside.block("EnablePort", "Enable", {}, {})
+    inside.line(inside.inport("i", 1), inside.outport("o", 1))
+    total = model.root.block("Sum", "sum", {"in": 2, "out": 1}, Inputs="++")
+    delay = model.root.block("UnitDelay", "d", {"in": 1, "out": 1}, InitialCondition="int8(1)")
+    for source, target in (
+        (u, f"{block}/1"), (u, f"{block}#enable"), (block, f"{total}/1"), (delay, f"{total}/2"),
+        (total, delay), (total, model.root.outport("y", 1)),
+    ):  # fmt: skip
+        model.root.line(source, target)
+    drawn, rows = read_model(model.save(tmp_path / "one.slx")), [{"u": 0}, {"u": 127}]
+    runner = ModelRunner(drawn)
+    assert [runner.step(row)["y"] for row in rows] == [1, -128]
+    assert compared(drawn, rows).rows == 2
+
+
 def test_a_subsystem_gives_the_first_value_of_an_output_that_its_chart_never_writes(tmp_path: Path) -> None:
     """It was held in a variable of the same name that began as 0, and the model was refused."""
     model = WrittenModel("one", step="0.1")

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from copy import deepcopy
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
@@ -19,6 +20,7 @@ from rovercheck.checker.drawn.interpret.values import (
     double,
     each_converted,
     scalars,
+    shape,
 )
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
@@ -60,6 +62,8 @@ class BlockAtWork:
     trigger: str = "rising"
     memory: MatlabValue | None = None
     outputs: list[MatlabValue] = field(default_factory=list)
+    typed: bool = False
+    """Whether the outputs of its system have their types, also if that was not executed yet."""
     was: list[float] = field(default_factory=list)
     """The values of its trigger in the step before."""
     functions: "list[SystemAtWork]" = field(default_factory=list)
@@ -211,12 +215,29 @@ class SystemAtWork:
             return self._charted(node, node.chart, values)
         if node.system is not None:
             if self._runs(node):
+                node.typed = True
                 return node.system.step(values)
+            if not node.typed:
+                node.typed, node.outputs = True, self._typed(node, node.system, values)
             return node.outputs
         try:
             return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
         except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
             raise DrawnFault("its inputs and parameters do not fit each other") from error
+
+    def _typed(
+        self, node: BlockAtWork, system: "SystemAtWork", values: Sequence[MatlabValue]
+    ) -> list[MatlabValue]:
+        """The outputs of a system before its first step: 0 in the types that a step would give them."""
+        try:
+            given = deepcopy(system, {id(self._runner): self._runner}).step(values)
+        except DrawnFault:
+            return node.outputs
+        pairs = zip(node.outputs, given, strict=True)
+        first = self._runner.types.initial
+        return [
+            first(one.kind, *shape(one)) if now.kind == "double" != one.kind else now for now, one in pairs
+        ]
 
     @staticmethod
     def _remembered(node: BlockAtWork) -> MatlabValue:
@@ -234,6 +255,9 @@ class SystemAtWork:
         node = self._by_id[port[0]]
         if node.memory is not None:
             return node.memory
+        if node.called and not node.typed and node.system is not None:
+            node.typed = True
+            node.outputs = self._typed(node, node.system, self._values(node))
         return node.outputs[port[1] - 1]
 
     def _runs(self, node: BlockAtWork) -> bool:
@@ -283,6 +307,7 @@ class SystemAtWork:
                 events = [one for one in node.chart.chart.root.events.values() if one.scope == "input"]
                 node.outputs = _woken(node.chart, [call_event(node.block.shown, events, call.event)])
             elif node.system is not None:
+                node.typed = True
                 node.outputs = node.system.step(values)
         called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
         pairs = zip(self._values(caller), called, strict=True)
