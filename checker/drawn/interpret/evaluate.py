@@ -64,8 +64,8 @@ class CallFrame:
     """Where a text stands: the state whose names it uses, and that its timers belong to.
 
     ``local``: the variables of a function, if it is one.  ``alive``: asked after each event that is sent.
-    ``persistent`` are those that a function keeps, of which ``kept`` are declared; ``last`` is the meaning of
-    ``end``, and ``calls`` how deep functions call each other.
+    ``persistent`` are those that a function keeps, of which ``kept`` are declared, ``results`` the names of
+    what it gives; ``last`` is the meaning of ``end``, and ``calls`` how deep functions call each other.
     """
 
     node: StateNode
@@ -74,6 +74,7 @@ class CallFrame:
     local: dict[str, MatlabValue] | None = None
     persistent: dict[str, MatlabValue] = field(default_factory=dict)
     kept: frozenset[str] = frozenset()
+    results: frozenset[str] = frozenset()
     script: Mapping[str, ScriptFunction] = field(default_factory=dict)
     last: int = 0
     calls: int = 0
@@ -153,6 +154,8 @@ class Evaluator(ABC):
             return frame.local[name]
         if name in frame.kept:
             return frame.persistent[name]
+        if name in frame.results:
+            raise DrawnFault(f"{name} is read, and nothing is assigned to it before")
         if (datum := datum_of(frame.node, name)) is not None:
             return self.memory.values[datum.ssid]
         return self._one(self._several(expression, frame))
@@ -192,7 +195,7 @@ class Evaluator(ABC):
         return called.name in functions or not self._is_no_datum(called.name, frame)
 
     def _is_no_datum(self, name: str, frame: CallFrame) -> bool:
-        local = (frame.local or {}).keys() | frame.kept
+        local = (frame.local or {}).keys() | frame.kept | frame.results
         return name not in local and datum_of(frame.node, name) is None
 
     @staticmethod

@@ -62,7 +62,8 @@ class StatementRunner(Evaluator):
             )
         pairs = zip(signature.inputs, values, strict=False)
         local = {name: value for name, value in pairs if name is not None}
-        frame = replace(caller, local=local, kept=frozenset(), calls=caller.calls + 1)
+        results = frozenset(signature.outputs)
+        frame = replace(caller, local=local, kept=frozenset(), results=results, calls=caller.calls + 1)
         frame.rules = NumberRules(False, caller.rules.saturates)
         self.body(function, frame)
         return [local[name] for name in signature.outputs if name in local]
@@ -196,7 +197,9 @@ class StatementRunner(Evaluator):
     def _set(self, name: str, value: MatlabValue, frame: CallFrame) -> None:
         if name in frame.kept:
             frame.persistent[name] = value
-        elif frame.local is not None and (name in frame.local or datum_of(frame.node, name) is None):
+        elif frame.local is not None and (
+            name in frame.local or name in frame.results or datum_of(frame.node, name) is None
+        ):
             frame.local[name] = value
         elif (datum := datum_of(frame.node, name)) is not None:
             self.memory.write(datum.ssid, value)

@@ -187,6 +187,8 @@ class ExpressionWriter(ElementWriter):
             if (kept := self.persistent.get(f"{scope.keeper}.{name}")) is not None:
                 return self._now(kept)
             raise NotLowered(f"{name} is read, and nothing is assigned to it before")
+        if name in scope.results:
+            raise NotLowered(f"{name} is read, and nothing is assigned to it before")
         if (datum := datum_in(scope.node, name)) is not None:
             return self._now(self.cells[datum.ssid])
         found = self.several(expression, scope)
@@ -205,7 +207,7 @@ class ExpressionWriter(ElementWriter):
     def is_datum(self, name: str, scope: TextScope) -> bool:
         """Whether a name is that of a variable or a datum."""
         local = bool(scope.function) and f"{scope.function}:{name}" in self.writer.locals
-        return local or name in scope.kept or datum_in(scope.node, name) is not None
+        return local or name in scope.kept or name in scope.results or datum_in(scope.node, name) is not None
 
     def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
         """All values of a call; of anything else its value."""

@@ -79,7 +79,7 @@ class StatementWriter(ExpressionWriter):
         key = ">".join((*scope.calls, signature.name))
         own = replace(
             scope, function=key, rules=IntegerRules(False, scope.rules.saturates), kept=set(),
-            calls=(*scope.calls, signature.name), broken=None, continued=None, left=None,
+            calls=(*scope.calls, signature.name), results=signature.outputs, broken=None, continued=None, left=None,
         )  # fmt: skip
         outer = self.writer.locals
         self.writer.locals = dict(outer)
@@ -318,7 +318,9 @@ class StatementWriter(ExpressionWriter):
         if name in scope.kept:
             self._keep(name, value, scope)
         elif scope.function and (
-            f"{scope.function}:{name}" in self.writer.locals or datum_in(scope.node, name) is None
+            f"{scope.function}:{name}" in self.writer.locals
+            or name in scope.results
+            or datum_in(scope.node, name) is None
         ):
             self._local(name, value, scope)
         elif (one := datum_in(scope.node, name)) is not None:
