@@ -35,7 +35,14 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
         for function in node.functions.values():
             what, drawn = f"the function {function.signature.name}", function.drawn
             for script in function.script:
-                local = {*script.signature.inputs, *script.signature.outputs, *_assigned(script.body)}
+                local = {
+                    "nargin",
+                    "error",
+                    "sort",
+                    *script.signature.inputs,
+                    *script.signature.outputs,
+                    *_assigned(script.body),
+                }
                 local |= {one.signature.name for one in function.script}
                 local_names = {name for name in local if name is not None}
                 yield from finder.notes(node, what, drawn.ssid, drawn.line, script.body, local=local_names)

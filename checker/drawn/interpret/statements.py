@@ -32,6 +32,7 @@ from rovercheck.checker.drawn.interpret.values import (
     Scalar,
     Structure,
     array,
+    double,
     each_converted,
     scalar,
     scalars,
@@ -62,6 +63,7 @@ class StatementRunner(Evaluator):
             )
         pairs = zip(signature.inputs, values, strict=False)
         local = {name: value for name, value in pairs if name is not None}
+        local["nargin"] = double(len(values))
         results = frozenset(signature.outputs)
         frame = replace(caller, local=local, kept=frozenset(), results=results, calls=caller.calls + 1)
         frame.rules = NumberRules(False, caller.rules.saturates)

@@ -26,11 +26,16 @@ from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, 
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.elements import ElementWriter
 from rovercheck.checker.drawn.lower.matrix_functions import (
+    CODER_VALUES,
+    CODER_WORDS,
     EXTREMES,
     FURTHER,
+    REDUCTIONS,
     TYPED,
     limit_of,
     place_of_extreme,
+    reduced,
+    sorted_values,
 )
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
@@ -231,6 +236,12 @@ class ExpressionWriter(ElementWriter):
                 if isinstance(value, SymbolicStructure) and name in value.elements:
                     return [value.elements[name]]
                 raise NotLowered(f"there is no element {name}")
+            case Applied(Member(Name("coder"), word), arguments) if not self.is_datum("coder", scope):
+                if word in CODER_VALUES and arguments:
+                    return [self.value(arguments[0], scope)]
+                if word in CODER_WORDS:
+                    return []
+                raise NotLowered(f"coder.{word} reaches outside of the model")
             case Applied(Name(name), arguments) if not self.is_datum(name, scope):
                 return self._called(name, arguments, scope)
             case Applied(whole, arguments):
@@ -259,9 +270,18 @@ class ExpressionWriter(ElementWriter):
             return self.script(scope.script[name], values, scope)
         if function is not None:
             return self.call(function, values, scope)
+        if name == "sort" and len(values) == 1 and texts in ([], ["ascend"], ["descend"]):
+            return [sorted_values(values[0], texts == ["descend"])]
+        if name == "error":
+            self.writer.fault(f"error(...) may be called: {' '.join(texts)}".rstrip(": "))
+            return []
         if texts or name in TYPED:
             return [self._typed(name, values, texts, scope)]
         try:
+            if name in REDUCTIONS and values and not isinstance(values[0], SymbolicStructure):
+                lines = reduced(name, values, scope.rules, self.table.kinds)
+                if lines is not None:
+                    return [lines]
             if name in BUILTINS:
                 made = BUILTINS[name](values, scope.rules, self.table.kinds)
                 extreme = name in EXTREMES and len(values) == 1

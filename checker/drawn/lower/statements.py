@@ -79,13 +79,15 @@ class StatementWriter(ExpressionWriter):
         key = ">".join((*scope.calls, signature.name))
         own = replace(
             scope, function=key, rules=IntegerRules(False, scope.rules.saturates), kept=set(),
-            calls=(*scope.calls, signature.name), results=signature.outputs, broken=None, continued=None, left=None,
+            calls=(*scope.calls, signature.name), results=signature.outputs, broken=None, continued=None,
+            left=None,
         )  # fmt: skip
         outer = self.writer.locals
         self.writer.locals = dict(outer)
         for name, value in zip(signature.inputs, arguments, strict=False):
             if name is not None:
                 self._local(name, value, own)
+        self._local("nargin", number("double", len(arguments)), own)
         with self.writer.until(f"{signature.name}_returned") as returned:
             self.run(function.body, replace(own, returned=returned))
         found = [

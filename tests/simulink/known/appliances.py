@@ -326,7 +326,7 @@ CHECKSUM = ChartText(
     junction end
     Idle -> Run: [valid]
     Run -> head: [valid]{crc ^= byte_; k = 0; n++;}
-    head -> body: [k < 8]
+    head -> body: [k < 5]
     head -> Idle: [n > 3]{bad = crc & 0x80;}
     head -> end
     body -> shift: [(crc & 0x80) != 0]{crc = (crc << 1) ^ 0x31;}
@@ -350,7 +350,7 @@ def _checksum(rows: Iterable[Row]) -> Outs:
             if valid:
                 crc ^= byte
                 n += 1
-                for _ in range(8):
+                for _ in range(5):
                     crc = ((crc << 1) ^ (0x31 if crc & 0x80 else 0)) & 255
                 if n > 3:
                     bad, back = int(bool(crc & 0x80)), True
