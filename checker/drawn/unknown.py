@@ -20,6 +20,8 @@ OF_STATES = ("in", "send")
 """What is followed by names of states and events."""
 WAKES = ("tick", "wakeup")
 """The event of a step itself."""
+IN_SCRIPTS = ("nargin", "error", "sort", "struct")
+"""What scripts have beside functions of numbers."""
 IMPLICIT = ("enter", "en", "exit", "ex", "change", "chg")
 """Events that no action sends."""
 OUTSIDE = ("coder", "ml")
@@ -35,14 +37,8 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
         for function in node.functions.values():
             what, drawn = f"the function {function.signature.name}", function.drawn
             for script in function.script:
-                local = {
-                    "nargin",
-                    "error",
-                    "sort",
-                    *script.signature.inputs,
-                    *script.signature.outputs,
-                    *_assigned(script.body),
-                }
+                local = {*IN_SCRIPTS, *script.signature.inputs, *script.signature.outputs}
+                local |= {*_assigned(script.body)}
                 local |= {one.signature.name for one in function.script}
                 local_names = {name for name in local if name is not None}
                 yield from finder.notes(node, what, drawn.ssid, drawn.line, script.body, local=local_names)

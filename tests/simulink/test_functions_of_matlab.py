@@ -116,6 +116,24 @@ def test_functions_that_were_not_known(tmp_path: Path, body: str, expected: list
     assert given_by(script_of(body, tmp_path)) == expected
 
 
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("s = struct('a', 1, 'b', u); s.a = s.a + 2; y = s.a + s.b;", [3, 4, 5, 6, 2]),
+        ("a.b.c = u; a.d = 1; y = a.b.c + a.d;", [1, 2, 3, 4, 0]),
+        ("s = struct('v', [1 2 3]); s.v(2) = u; t = s; t.v(1) = 5; y = sum(s.v) + t.v(1);", [9, 10, 11, 12, 8]),
+        ("s = struct('n', 0); if u > 1, s.n = u; else, s.n = 5; end\ny = s.n;", [5, 5, 2, 3, 5]),
+        (
+            "persistent s\nif isempty(s), s = struct('n', 0, 'ok', false); end\nif u > 2, s.n = 0; end\n"
+            "s.n = mod(s.n + u, 7); s.ok = s.n > 2; y = s.n + double(s.ok) * 10;",
+            [0, 1, 13, 13, 2],
+        ),
+    ],
+)  # fmt: skip
+def test_scripts_make_structures_and_keep_them(tmp_path: Path, body: str, expected: list[float]) -> None:
+    assert given_by(script_of(body, tmp_path)) == expected
+
+
 def test_an_error_of_a_function_has_no_step_after_it(tmp_path: Path) -> None:
     read = script_of("if u > 2, error('Too:large', 'u is %d', u); end\ny = u;", tmp_path)
     found = compared(read, [{"u": u} for u in GIVEN], domains={"y": fixed(-10, 10, 1)})

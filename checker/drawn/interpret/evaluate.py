@@ -58,6 +58,8 @@ from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
 MOST_TURNS = 1_000_000
 """Turns of a loop, after which it is taken for one without end."""
 MOST_CALLS = 100
+MADE = "struct"
+"""The kind of structures that scripts make."""
 
 
 class Dropped(Exception):
@@ -226,6 +228,8 @@ class Evaluator(ABC):
             return self._words.call(function, values, frame.calls + 1)
         if name in WITHOUT_EFFECT:
             return []
+        if name == "struct":
+            return [self._structure(given, frame)]
         texts = [one.value for one in given if isinstance(one, TextLiteral)]
         values = [self.value(one, frame) for one in given if not isinstance(one, TextLiteral)]
         if name == "sort" and len(values) == 1 and texts in ([], ["ascend"], ["descend"]):
@@ -235,6 +239,8 @@ class Evaluator(ABC):
         if texts or name in TYPED:
             return [self._typed(name, values, texts, frame)]
         try:
+            if name == "isempty" and values and isinstance(values[0], Structure):
+                return [logical(False)]
             if name in REDUCTIONS and values and not isinstance(values[0], Structure):
                 lines = reduced(name, values, frame.rules)
                 if lines is not None and (len(values) > 1 or min(shape(values[0])) > 1):
@@ -249,6 +255,15 @@ class Evaluator(ABC):
         if name in self.memory.types.enumerations and len(values) == 1:
             return [each_converted(values[0], f"Enum: {name}", frame.rules)]
         raise DrawnFault(f"{name} is not known here")
+
+    def _structure(self, given: Sequence[Expression], frame: CallFrame) -> Structure:
+        """``struct('name', value, ...)``."""
+        elements = {}
+        for name, value in zip(given[::2], given[1::2], strict=False):
+            if not isinstance(name, TextLiteral):
+                raise DrawnFault("struct takes pairs of a name, as a text, and a value")
+            elements[name.value] = self.value(value, frame)
+        return Structure(MADE, elements)
 
     def _of_coder(self, word: str, arguments: Sequence[Expression], frame: CallFrame) -> list[MatlabValue]:
         """What is written for the code generator means nothing, or the value that it is about."""
@@ -341,4 +356,4 @@ class Evaluator(ABC):
         return [start + step * number for number in range(count)]
 
 
-__all__ = ["CallFrame", "ChartWords", "Dropped", "Evaluator"]
+__all__ = ["MADE", "CallFrame", "ChartWords", "Dropped", "Evaluator"]

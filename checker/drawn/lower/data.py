@@ -65,6 +65,7 @@ class DataTable:
     given: Mapping[str, Domain] = field(default_factory=dict)
     ranges: dict[str, LearnedRange] = field(default_factory=dict)
     kinds_of: dict[str, tuple[str, int, int]] = field(default_factory=dict)
+    structures: dict[str, Symbolic] = field(default_factory=dict)
     counters: dict[tuple[str, str], int] = field(default_factory=dict)
     """Counters of states, by the state's path and what is counted, with the steps up to which it matters."""
     watched: dict[str, dict[str, int]] = field(default_factory=dict)
@@ -151,6 +152,12 @@ class DataTable:
         """A value of that type was written to a datum without one: it keeps the first."""
         if name not in self.kinds_of:
             self.kinds_of[name] = kind, rows, columns
+            self.changed.add(name)
+
+    def saw_structure(self, name: str, first: Symbolic) -> None:
+        """A structure that a script makes was written to a persistent variable: it keeps its elements."""
+        if name not in self.structures:
+            self.structures[name] = first
             self.changed.add(name)
 
     def begin(self) -> None:

@@ -40,6 +40,7 @@ from rovercheck.checker.drawn.lower.matrix_functions import (
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
+    MADE,
     TWO_TYPES,
     UNTYPED,
     NotLowered,
@@ -264,6 +265,8 @@ class ExpressionWriter(ElementWriter):
         if name in NOTHING and name not in scope.script and function is None:
             return []
         own = name in scope.script or function is not None
+        if name == "struct" and not own:
+            return [self._structure(given, scope)]
         texts = [] if own else [one.value for one in given if isinstance(one, TextLiteral)]
         values = self._in_turn([one for one in given if own or not isinstance(one, TextLiteral)], scope)
         if name in scope.script:
@@ -278,6 +281,8 @@ class ExpressionWriter(ElementWriter):
         if texts or name in TYPED:
             return [self._typed(name, values, texts, scope)]
         try:
+            if name == "isempty" and values and isinstance(values[0], SymbolicStructure):
+                return [truth(const(False))]
             if name in REDUCTIONS and values and not isinstance(values[0], SymbolicStructure):
                 lines = reduced(name, values, scope.rules, self.table.kinds)
                 if lines is not None:
@@ -294,6 +299,13 @@ class ExpressionWriter(ElementWriter):
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(f"{name} is no datum, event or function that is known here")
+
+    def _structure(self, given: Sequence[Expression], scope: TextScope) -> Symbolic:
+        """``struct('name', value, ...)``."""
+        names = [one.value if isinstance(one, TextLiteral) else "" for one in given[::2]]
+        if not all(names) or len(given) % 2:
+            raise NotLowered("struct takes pairs of a name, as a text, and a value")
+        return SymbolicStructure(MADE, dict(zip(names, self._in_turn(given[1::2], scope), strict=True)))
 
     def _in_turn(self, given: Sequence[Expression], scope: TextScope) -> list[Symbolic]:
         """The values of arguments, each as it is before the later ones are computed."""

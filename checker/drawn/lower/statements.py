@@ -28,6 +28,7 @@ from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in
 from rovercheck.checker.drawn.lower.symbols import (
+    MADE,
     UNTYPED,
     NotLowered,
     Symbolic,
@@ -243,9 +244,14 @@ class StatementWriter(ExpressionWriter):
             case Name(name):
                 self._set(name, value, scope)
             case Member(owner, name):
-                whole = self.value(owner, scope)
-                if not isinstance(whole, SymbolicStructure) or name not in whole.elements:
+                whole = self._owner(owner, scope)
+                if not isinstance(whole, SymbolicStructure):
                     raise NotLowered(f"there is no element {name} to write to")
+                if name not in whole.elements:
+                    if whole.kind != MADE:
+                        raise NotLowered(f"there is no element {name} to write to")
+                    self._write(owner, SymbolicStructure(MADE, {**whole.elements, name: value}), scope)
+                    return
                 made = self._like(whole.elements[name], value, scope)
                 self._write(owner, SymbolicStructure(whole.kind, {**whole.elements, name: made}), scope)
             case Applied(of, indices):
@@ -263,10 +269,23 @@ class StatementWriter(ExpressionWriter):
             case _:
                 raise NotLowered("what is assigned to is no datum")
 
+    def _owner(self, owner: Expression, scope: TextScope) -> Symbolic:
+        """What has an element that is written: in a script it is made by that."""
+        match owner:
+            case Name(name) if scope.function and f"{scope.function}:{name}" not in self.writer.locals:
+                if name in scope.results or not self.is_datum(name, scope):
+                    return SymbolicStructure(MADE, {})
+            case Member(outer, name):
+                whole = self._owner(outer, scope)
+                if isinstance(whole, SymbolicStructure) and whole.kind == MADE:
+                    return whole.elements.get(name, SymbolicStructure(MADE, {}))
+        return self.value(owner, scope)
+
     def _like(self, old: Symbolic, value: Symbolic, scope: TextScope) -> Symbolic:
         """A value in the type and the size of what it takes the place of."""
         if isinstance(old, SymbolicStructure) or isinstance(value, SymbolicStructure):
-            if old.kind != value.kind:
+            names = [[name for name, _ in leaves(one, "")] for one in (old, value)]
+            if old.kind != value.kind or names[0] != names[1]:
                 raise NotLowered(f"a value of {value.kind} takes the place of one of {old.kind}")
             return value
         made = each_converted(value, flat(old)[0].kind, scope.rules, self.table.kinds)
@@ -360,9 +379,11 @@ class StatementWriter(ExpressionWriter):
     def _recall(self, name: str, scope: TextScope) -> None:
         """The memory of a persistent variable, if its type is known already."""
         key = f"{scope.keeper}.{name}"
-        known = self.table.kind_of(key)
-        if key not in self.persistent and known is not None:
-            first = self.table.kinds.first_value(*known)
+        known, first = self.table.kind_of(key), self.table.structures.get(key)
+        if key not in self.persistent and (known is not None or first is not None):
+            if first is None and known is not None:
+                first = self.table.kinds.first_value(*known)
+            assert first is not None
             self.persistent[key] = self.table.declared(key, first, hidden=True)
             unset = self.table.declared(f"{key}?", truth(TRUE), hidden=True)
             self.persistent[f"{key}?"] = unset
@@ -371,8 +392,13 @@ class StatementWriter(ExpressionWriter):
         key = f"{scope.keeper}.{name}"
         kind = "double" if value.kind == UNTYPED else value.kind
         if is_structure(kind):
-            raise NotLowered(f"{name} is persistent and a structure: keep each element")
-        self.table.saw(key, kind, *size_of(value))
+            raise NotLowered(f"{name} is persistent and of a bus: keep each element")
+        if isinstance(value, SymbolicStructure):
+            kinds = ("double" if one.kind == UNTYPED else one.kind for _, one in leaves(value, ""))
+            zeros = [single_of(self.table.kinds.first_value(one)) for one in kinds]
+            self.table.saw_structure(key, filled(value, iter(zeros)))
+        else:
+            self.table.saw(key, kind, *size_of(value))
         self._recall(name, scope)
         self._all(self.persistent[key], value, scope)
         self.table.write(self.writer, single_of(self.persistent[f"{key}?"]), FALSE)

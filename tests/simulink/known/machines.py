@@ -256,9 +256,7 @@ def _debouncer(rows: Iterable[Row]) -> Outs:
         go = state
         if not state:
             go = "Off"
-        elif state == "Off" and (sw >= 0.1 or sw <= -0.1):
-            go = band
-        elif state == "On" and abs(sw) < 0.1:
+        elif (state == "Off" and (sw >= 0.1 or sw <= -0.1)) or (state == "On" and abs(sw) < 0.1):
             go = band
         elif state in ("Zero", "Pos", "Neg"):
             if cnt >= 12:

@@ -210,7 +210,7 @@ def _ring(rows: Iterable[Row]) -> Outs:
     for row in rows:
         if not state:
             state = "Wait"
-        elif state == "Wait" and row["push"] or state == "Fill" and row["push"] and not full:
+        elif (state == "Wait" and row["push"]) or (state == "Fill" and row["push"] and not full):
             level += state == "Fill"
             buf = [*buf, int(row["x"])][-4:]
             total = sum(buf)
