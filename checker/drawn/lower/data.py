@@ -11,13 +11,17 @@ from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.rounding import nearest_of
 from rovercheck.checker.drawn.lower.symbols import (
+    UNTYPED,
     NotLowered,
     Symbolic,
     SymbolicScalar,
+    SymbolicStructure,
     filled,
     folded,
     least_and_greatest,
     leaves,
+    single_of,
+    size_of,
 )
 from rovercheck.spec_model.lang.domain import Domain, Num, common_resolution, fixed, in_resolution
 from rovercheck.spec_model.lang.expr import Const, Expr, Var, rescale
@@ -154,10 +158,14 @@ class DataTable:
             self.kinds_of[name] = kind, rows, columns
             self.changed.add(name)
 
-    def saw_structure(self, name: str, first: Symbolic) -> None:
-        """A structure that a script makes was written to a persistent variable: it keeps its elements."""
-        if name not in self.structures:
-            self.structures[name] = first
+    def saw_value(self, name: str, value: Symbolic) -> None:
+        """A value was written to a persistent variable; a structure that a script makes has elements."""
+        if not isinstance(value, SymbolicStructure):
+            self.saw(name, "double" if value.kind == UNTYPED else value.kind, *size_of(value))
+        elif name not in self.structures:
+            kinds = ("double" if one.kind == UNTYPED else one.kind for _, one in leaves(value, ""))
+            zeros = [single_of(self.kinds.first_value(one)) for one in kinds]
+            self.structures[name] = filled(value, iter(zeros))
             self.changed.add(name)
 
     def begin(self) -> None:

@@ -245,14 +245,12 @@ class StatementWriter(ExpressionWriter):
                 self._set(name, value, scope)
             case Member(owner, name):
                 whole = self._owner(owner, scope)
-                if not isinstance(whole, SymbolicStructure):
+                if not isinstance(whole, SymbolicStructure) or name not in (
+                    [name] if whole.kind == MADE else whole.elements
+                ):
                     raise NotLowered(f"there is no element {name} to write to")
-                if name not in whole.elements:
-                    if whole.kind != MADE:
-                        raise NotLowered(f"there is no element {name} to write to")
-                    self._write(owner, SymbolicStructure(MADE, {**whole.elements, name: value}), scope)
-                    return
-                made = self._like(whole.elements[name], value, scope)
+                old = whole.elements.get(name)
+                made = value if old is None else self._like(old, value, scope)
                 self._write(owner, SymbolicStructure(whole.kind, {**whole.elements, name: made}), scope)
             case Applied(of, indices):
                 whole = self.value(of, scope)
@@ -380,25 +378,18 @@ class StatementWriter(ExpressionWriter):
         """The memory of a persistent variable, if its type is known already."""
         key = f"{scope.keeper}.{name}"
         known, first = self.table.kind_of(key), self.table.structures.get(key)
-        if key not in self.persistent and (known is not None or first is not None):
-            if first is None and known is not None:
-                first = self.table.kinds.first_value(*known)
-            assert first is not None
+        if first is None and known is not None:
+            first = self.table.kinds.first_value(*known)
+        if key not in self.persistent and first is not None:
             self.persistent[key] = self.table.declared(key, first, hidden=True)
             unset = self.table.declared(f"{key}?", truth(TRUE), hidden=True)
             self.persistent[f"{key}?"] = unset
 
     def _keep(self, name: str, value: Symbolic, scope: TextScope) -> None:
         key = f"{scope.keeper}.{name}"
-        kind = "double" if value.kind == UNTYPED else value.kind
-        if is_structure(kind):
+        if is_structure(value.kind):
             raise NotLowered(f"{name} is persistent and of a bus: keep each element")
-        if isinstance(value, SymbolicStructure):
-            kinds = ("double" if one.kind == UNTYPED else one.kind for _, one in leaves(value, ""))
-            zeros = [single_of(self.table.kinds.first_value(one)) for one in kinds]
-            self.table.saw_structure(key, filled(value, iter(zeros)))
-        else:
-            self.table.saw(key, kind, *size_of(value))
+        self.table.saw_value(key, value)
         self._recall(name, scope)
         self._all(self.persistent[key], value, scope)
         self.table.write(self.writer, single_of(self.persistent[f"{key}?"]), FALSE)

@@ -43,7 +43,7 @@ WINDOW = ChartText(
 
 
 def _window(rows: Iterable[Row]) -> Outs:
-    state, up_out, down_out, ticks, inside = "", 0, 0, 0, 0
+    state, up_out, down_out, ticks = "", 0, 0, 0
     for row in rows:
         up, down, stop = row["up"], row["down"], row["endstop"]
         ticks += 1
@@ -71,7 +71,6 @@ def _window(rows: Iterable[Row]) -> Outs:
             state, ticks = go, 0
             up_out = int(go in ("auto_up", "hold_up"))
             down_out = int(go in ("auto_down", "emergency"))
-        inside += 1
         yield up_out, down_out
 
 
@@ -90,7 +89,7 @@ WASHER = ChartText(
     subchart Busy: du: minutes = minutes + 1;\\nex: motor(:) = 0;
         -> Fill: {switch prog, case {1, 2}, cycles = 2; case 3, cycles = 1; otherwise, cycles = 0; end}
         state Fill: en: phase = Phase.FILL;
-        state Wash: en:\\nphase = Phase.WASH; %% both ways\\nmotor = int8(1);\\non every(2, tick): motor = -motor;
+        state Wash: en:\\nphase = WASH; %% both\\nmotor = int8(1);\\non every(2, tick): motor = -motor;
         state Spin: en: phase = SPIN;\\nmotor = int8(100)
         history H
         Fill -> Wash: after(2, tick)
@@ -106,7 +105,8 @@ WASHER = ChartText(
     """,
     "MATLAB",
     files={
-        "Phase.m": "classdef Phase < Simulink.IntEnumType\n  % phases\n  enumeration\n    IDLE(0)\n    FILL (1)\n"
+        "Phase.m": "classdef Phase < Simulink.IntEnumType\n  % phases\n  enumeration\n    IDLE(0)\n"
+        "    FILL (1)\n"
         "    WASH(2)  % the long one\n    SPIN(5)\n    PAUSED(7), DONE(9)\n  end\nend\n"
     },
 )
@@ -411,7 +411,7 @@ def _abort(rows: Iterable[Row]) -> Outs:
         elif state == "Pad":
             if row["go"]:
                 state, monitor, mode, armed, held = "Low", "Ok", 1, 1, 0
-        elif state == "Tower" or state == "Coast":
+        elif state in ("Tower", "Coast"):
             if safe and (state == "Tower" or alt < 50):
                 state, mode, armed = "Pad", 0, 0
         else:

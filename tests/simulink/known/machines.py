@@ -106,7 +106,7 @@ BOILER = ChartText(
         -> l: {y = temp > reference;}
     -> Off
     state Off: entry: turn_boiler(OFF), color = RED;\\non every(5,sec): flash_LED();
-    state On: entry: turn_boiler(ON);\\nduring: color = GREEN;\\non every(1,sec): flash_LED();\\nexit: color = RED
+    state On: entry: turn_boiler(ON);\\ndu: color = GREEN;\\non every(1,sec): flash_LED();\\nex: color = RED
         -> HIGH
         state HIGH
         state NORM

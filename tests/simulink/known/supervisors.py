@@ -1,4 +1,4 @@
-"""Supervisors as companies draw them: regions in regions, MATLAB functions with memory, enumerations, buses."""
+"""Supervisors as companies draw them: regions in regions, MATLAB functions with memory, single precision."""
 
 from collections.abc import Iterable, Iterator
 from struct import pack, unpack
