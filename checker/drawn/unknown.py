@@ -22,6 +22,8 @@ WAKES = ("tick", "wakeup")
 """The event of a step itself."""
 IN_SCRIPTS = ("nargin", "error", "sort", "struct")
 """What scripts have beside functions of numbers."""
+TIME = ("t", "getSimulationTime")
+"""The time of a simulation."""
 IMPLICIT = ("enter", "en", "exit", "ex", "change", "chg")
 """Events that no action sends."""
 OUTSIDE = ("coder", "ml")
@@ -76,6 +78,8 @@ class _Finder:
         for name in found:
             near = did_you_mean(name, self._own(known))
             text = f"{name} is no datum, event, function or member that is known here. {near}".strip()
+            if name in TIME:
+                text = f"{name} is the time since the beginning, which has no end. Use after or elapsed."
             if name in IMPLICIT:
                 text = (
                     f"{name}(...) is an implicit event, which has no meaning here. Send an event of the "
