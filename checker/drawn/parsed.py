@@ -264,8 +264,10 @@ class _Parser:
         ends = [end.holder if isinstance(end, JunctionNode) else end for end in (one.source, one.target)]
         while not all(end is None or one.holder in end.lineage() for end in ends):
             if one.source is None or one.drawn.inner or one.holder.parent is None:
-                place = "a default transition" if one.source is None else "an inner transition"
-                raise ModelError(f"{one}: {place} ends in the state that it stands in. Save the model again.")
+                place = "default transition" if one.source is None else "inner transition"
+                raise ModelError(
+                    f"{one}: it leads out of that, as no {place} does. Save the model again in Simulink."
+                )
             one.holder = one.holder.parent
 
     def _function(self, holder: StateNode, state: DrawnState) -> None:

@@ -20,6 +20,10 @@ OF_STATES = ("in", "send")
 """What is followed by names of states and events."""
 WAKES = ("tick", "wakeup")
 """The event of a step itself."""
+IN_SCRIPTS = ("nargin", "error", "sort", "struct")
+"""What scripts have beside functions of numbers."""
+TIME = ("t", "getSimulationTime")
+"""The time of a simulation."""
 IMPLICIT = ("enter", "en", "exit", "ex", "change", "chg")
 """Events that no action sends."""
 OUTSIDE = ("coder", "ml")
@@ -35,7 +39,8 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
         for function in node.functions.values():
             what, drawn = f"the function {function.signature.name}", function.drawn
             for script in function.script:
-                local = {*script.signature.inputs, *script.signature.outputs, *_assigned(script.body)}
+                local = {*IN_SCRIPTS, *script.signature.inputs, *script.signature.outputs}
+                local |= {*_assigned(script.body)}
                 local |= {one.signature.name for one in function.script}
                 local_names = {name for name in local if name is not None}
                 yield from finder.notes(node, what, drawn.ssid, drawn.line, script.body, local=local_names)
@@ -73,6 +78,8 @@ class _Finder:
         for name in found:
             near = did_you_mean(name, self._own(known))
             text = f"{name} is no datum, event, function or member that is known here. {near}".strip()
+            if name in TIME:
+                text = f"{name} is the time since the beginning, which has no end. Use after or elapsed."
             if name in IMPLICIT:
                 text = (
                     f"{name}(...) is an implicit event, which has no meaning here. Send an event of the "

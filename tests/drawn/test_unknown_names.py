@@ -91,6 +91,15 @@ def test_an_implicit_event_is_refused_by_its_name(tmp_path: Path, label: str) ->
     assert text.startswith(f"{label.partition('(')[0]}(...) is an implicit event, which has no meaning here")
 
 
+def test_the_time_of_a_simulation_is_refused_by_its_name(tmp_path: Path) -> None:
+    assert told(written(tmp_path, "", "[t > 5]")) == [
+        (
+            "the transition `[t > 5]`",
+            "t is the time since the beginning, which has no end. Use after or elapsed.",
+        )
+    ]
+
+
 def test_it_is_refused_with_what_may_be_meant(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["import", str(written(tmp_path, "sped = 1;")), "--json"]) is Exit.INCONCLUSIVE
     [note] = json.loads(capsys.readouterr().out)["notes"]

@@ -25,17 +25,22 @@ from rovercheck.checker.drawn.grammar.syntax import (
 )
 from rovercheck.checker.drawn.interpret.functions import BUILTINS, WITHOUT_EFFECT
 from rovercheck.checker.drawn.interpret.matrix_functions import (
+    CODER_VALUES,
+    CODER_WORDS,
     EXTREMES,
     FURTHER,
+    REDUCTIONS,
     TYPED,
+    joined,
     limit_of,
     place_of_extreme,
+    reduced,
+    sorted_values,
 )
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, datum_of
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     LITERAL,
-    ArrayOf,
     MatlabValue,
     NumberRules,
     Scalar,
@@ -53,6 +58,8 @@ from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
 MOST_TURNS = 1_000_000
 """Turns of a loop, after which it is taken for one without end."""
 MOST_CALLS = 100
+MADE = "struct"
+"""The kind of structures that scripts make."""
 
 
 class Dropped(Exception):
@@ -64,8 +71,8 @@ class CallFrame:
     """Where a text stands: the state whose names it uses, and that its timers belong to.
 
     ``local``: the variables of a function, if it is one.  ``alive``: asked after each event that is sent.
-    ``persistent`` are those that a function keeps, of which ``kept`` are declared; ``last`` is the meaning of
-    ``end``, and ``calls`` how deep functions call each other.
+    ``persistent`` are those that a function keeps, of which ``kept`` are declared, ``results`` the names of
+    what it gives; ``last`` is the meaning of ``end``, and ``calls`` how deep functions call each other.
     """
 
     node: StateNode
@@ -74,6 +81,7 @@ class CallFrame:
     local: dict[str, MatlabValue] | None = None
     persistent: dict[str, MatlabValue] = field(default_factory=dict)
     kept: frozenset[str] = frozenset()
+    results: frozenset[str] = frozenset()
     script: Mapping[str, ScriptFunction] = field(default_factory=dict)
     last: int = 0
     calls: int = 0
@@ -153,6 +161,8 @@ class Evaluator(ABC):
             return frame.local[name]
         if name in frame.kept:
             return frame.persistent[name]
+        if name in frame.results:
+            raise DrawnFault(f"{name} is read, and nothing is assigned to it before")
         if (datum := datum_of(frame.node, name)) is not None:
             return self.memory.values[datum.ssid]
         return self._one(self._several(expression, frame))
@@ -176,6 +186,8 @@ class Evaluator(ABC):
                 if isinstance(value, Structure) and name in value.elements:
                     return [value.elements[name]]
                 raise DrawnFault(f"there is no element {name}")
+            case Applied(Member(Name("coder"), word), arguments) if self._is_no_datum("coder", frame):
+                return self._of_coder(word, arguments, frame)
             case Applied(Name(name), arguments) if self._is_no_datum(name, frame):
                 return self._called(name, arguments, frame)
             case Applied(whole, arguments):
@@ -192,7 +204,7 @@ class Evaluator(ABC):
         return called.name in functions or not self._is_no_datum(called.name, frame)
 
     def _is_no_datum(self, name: str, frame: CallFrame) -> bool:
-        local = (frame.local or {}).keys() | frame.kept
+        local = (frame.local or {}).keys() | frame.kept | frame.results
         return name not in local and datum_of(frame.node, name) is None
 
     @staticmethod
@@ -216,11 +228,23 @@ class Evaluator(ABC):
             return self._words.call(function, values, frame.calls + 1)
         if name in WITHOUT_EFFECT:
             return []
+        if name == "struct":
+            return [self._structure(given, frame)]
         texts = [one.value for one in given if isinstance(one, TextLiteral)]
         values = [self.value(one, frame) for one in given if not isinstance(one, TextLiteral)]
+        if name == "sort" and len(values) == 1 and texts in ([], ["ascend"], ["descend"]):
+            return [sorted_values(values[0], texts == ["descend"])]
+        if name == "error":
+            raise DrawnFault(f"error(...) is called: {' '.join(texts)}".rstrip(": "))
         if texts or name in TYPED:
             return [self._typed(name, values, texts, frame)]
         try:
+            if name == "isempty" and values and isinstance(values[0], Structure):
+                return [logical(False)]
+            if name in REDUCTIONS and values and not isinstance(values[0], Structure):
+                lines = reduced(name, values, frame.rules)
+                if lines is not None and (len(values) > 1 or min(shape(values[0])) > 1):
+                    return [lines]
             if name in BUILTINS:
                 found = BUILTINS[name](values, frame.rules)
                 return [found, place_of_extreme(name, values[0])] if name in EXTREMES else [found]
@@ -231,6 +255,23 @@ class Evaluator(ABC):
         if name in self.memory.types.enumerations and len(values) == 1:
             return [each_converted(values[0], f"Enum: {name}", frame.rules)]
         raise DrawnFault(f"{name} is not known here")
+
+    def _structure(self, given: Sequence[Expression], frame: CallFrame) -> Structure:
+        """``struct('name', value, ...)``."""
+        elements = {}
+        for name, value in zip(given[::2], given[1::2], strict=False):
+            if not isinstance(name, TextLiteral):
+                raise DrawnFault("struct takes pairs of a name, as a text, and a value")
+            elements[name.value] = self.value(value, frame)
+        return Structure(MADE, elements)
+
+    def _of_coder(self, word: str, arguments: Sequence[Expression], frame: CallFrame) -> list[MatlabValue]:
+        """What is written for the code generator means nothing, or the value that it is about."""
+        if word in CODER_VALUES and arguments:
+            return [self.value(arguments[0], frame)]
+        if word in CODER_WORDS:
+            return []
+        raise DrawnFault(f"coder.{word} reaches outside of the model, which is not known here")
 
     def _typed(
         self, name: str, values: Sequence[MatlabValue], texts: Sequence[str], frame: CallFrame
@@ -304,18 +345,7 @@ class Evaluator(ABC):
 
     def _matrix(self, rows: Sequence[Sequence[Expression]], frame: CallFrame) -> MatlabValue:
         made = [[self.value(one, frame) for one in row] for row in rows]
-        flat = [[one for value in row for one in scalars(value)] for row in made]
-        width = max(map(len, flat), default=0)
-        if any(len(row) != width for row in flat):
-            raise DrawnFault("the rows of a matrix are not as long as each other")
-        kinds = [one.kind for row in flat for one in row]
-        kind = next(
-            (k for k in kinds if k not in ("double", "logical", LITERAL)), kinds[0] if kinds else "double"
-        )
-        values = ArrayOf(kind, len(flat), width, tuple(one for row in flat for one in row))
-        found = each_converted(values, kind, frame.rules) if kinds else values
-        assert isinstance(found, ArrayOf)
-        return array(found.values, found.rows, found.columns)
+        return joined(made, frame.rules)
 
     def _range(self, one: ColonRange, frame: CallFrame) -> list[float]:
         start, stop = (scalar(self.value(end, frame)).value for end in (one.start, one.stop))
@@ -326,4 +356,4 @@ class Evaluator(ABC):
         return [start + step * number for number in range(count)]
 
 
-__all__ = ["CallFrame", "ChartWords", "Dropped", "Evaluator"]
+__all__ = ["MADE", "CallFrame", "ChartWords", "Dropped", "Evaluator"]

@@ -6,8 +6,6 @@ from math import ceil, floor, fmod, inf, isfinite, isinf, isnan, nan, sqrt, trun
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.operations import BITS, binary
 from rovercheck.checker.drawn.interpret.values import (
-    FALSE,
-    TRUE,
     TYPES,
     WHOLE,
     ArrayOf,
@@ -201,7 +199,6 @@ def _constant(value: Scalar) -> Builtin:
 BUILTINS: Mapping[str, Builtin] = {
     **{kind: _conversion(kind) for kind in TYPES},
     "boolean": _conversion("logical"),
-    "true": _constant(TRUE), "false": _constant(FALSE),
     "inf": _constant(double(inf)), "Inf": _constant(double(inf)),
     "nan": _constant(double(nan)), "NaN": _constant(double(nan)),
     "abs": _each(abs), "floor": _each(_plain(floor)), "ceil": _each(_plain(ceil)),

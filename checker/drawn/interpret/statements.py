@@ -21,7 +21,7 @@ from rovercheck.checker.drawn.grammar.actions import (
 )
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Indexed, Member, Name
-from rovercheck.checker.drawn.interpret.evaluate import MOST_TURNS, CallFrame, Dropped, Evaluator
+from rovercheck.checker.drawn.interpret.evaluate import MADE, MOST_TURNS, CallFrame, Dropped, Evaluator
 from rovercheck.checker.drawn.interpret.memory import datum_of
 from rovercheck.checker.drawn.interpret.operations import binary
 from rovercheck.checker.drawn.interpret.values import (
@@ -32,6 +32,7 @@ from rovercheck.checker.drawn.interpret.values import (
     Scalar,
     Structure,
     array,
+    double,
     each_converted,
     scalar,
     scalars,
@@ -62,7 +63,9 @@ class StatementRunner(Evaluator):
             )
         pairs = zip(signature.inputs, values, strict=False)
         local = {name: value for name, value in pairs if name is not None}
-        frame = replace(caller, local=local, kept=frozenset(), calls=caller.calls + 1)
+        local["nargin"] = double(len(values))
+        results = frozenset(signature.outputs)
+        frame = replace(caller, local=local, kept=frozenset(), results=results, calls=caller.calls + 1)
         frame.rules = NumberRules(False, caller.rules.saturates)
         self.body(function, frame)
         return [local[name] for name in signature.outputs if name in local]
@@ -161,7 +164,10 @@ class StatementRunner(Evaluator):
             case Name(name):
                 self._set(name, value, frame)
             case Member(owner, name):
-                whole = self.value(owner, frame)
+                whole = self._held(owner, frame)
+                if isinstance(whole, Structure) and whole.kind == MADE and name not in whole.elements:
+                    self._write(owner, Structure(MADE, {**whole.elements, name: value}), frame)
+                    return
                 if not isinstance(whole, Structure) or name not in whole.elements:
                     raise DrawnFault(f"there is no element {name} to write to")
                 old = whole.elements[name]
@@ -182,6 +188,18 @@ class StatementRunner(Evaluator):
             case _:
                 raise DrawnFault("what is assigned to is no datum")
 
+    def _held(self, owner: Expression, frame: CallFrame) -> MatlabValue:
+        """What has an element that is written: in a script it is made by that."""
+        match owner:
+            case Name(name) if frame.local is not None and name not in frame.local:
+                if self._is_no_datum(name, frame) or name in frame.results:
+                    return Structure(MADE)
+            case Member(outer, name):
+                whole = self._held(outer, frame)
+                if isinstance(whole, Structure) and whole.kind == MADE and name not in whole.elements:
+                    return Structure(MADE)
+        return self.value(owner, frame)
+
     def _with(
         self, whole: MatlabValue, places: Sequence[int], value: MatlabValue, frame: CallFrame
     ) -> MatlabValue:
@@ -196,7 +214,9 @@ class StatementRunner(Evaluator):
     def _set(self, name: str, value: MatlabValue, frame: CallFrame) -> None:
         if name in frame.kept:
             frame.persistent[name] = value
-        elif frame.local is not None and (name in frame.local or datum_of(frame.node, name) is None):
+        elif frame.local is not None and (
+            name in frame.local or name in frame.results or datum_of(frame.node, name) is None
+        ):
             frame.local[name] = value
         elif (datum := datum_of(frame.node, name)) is not None:
             self.memory.write(datum.ssid, value)

@@ -65,7 +65,7 @@ class ArrayOf:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """A value of a bus: its elements by name."""
+    """A value of a bus, or ``struct`` where a script makes one: its elements by name."""
 
     kind: str
     elements: Mapping[str, "MatlabValue"] = field(default_factory=dict)

@@ -237,8 +237,6 @@ def _never(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbo
 BUILTINS: Mapping[str, Builtin] = {
     **{kind: _conversion(kind) for kind in (*INTEGERS, *REALS, LOGICAL)},
     "boolean": _conversion(LOGICAL),
-    "true": lambda arguments, rules, kinds: truth(TRUE),
-    "false": lambda arguments, rules, kinds: truth(FALSE),
     "abs": _each(_magnitude), "floor": _each(floor_of), "ceil": _each(ceiling_of),
     "round": _each(nearest_of), "fix": _each(toward_zero), "sign": _each(_sign), "sqrt": _each(_root),
     "mod": _two(modulo), "rem": _two(remainder), "min": _extreme(least), "max": _extreme(greatest),

@@ -11,13 +11,17 @@ from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.rounding import nearest_of
 from rovercheck.checker.drawn.lower.symbols import (
+    UNTYPED,
     NotLowered,
     Symbolic,
     SymbolicScalar,
+    SymbolicStructure,
     filled,
     folded,
     least_and_greatest,
     leaves,
+    single_of,
+    size_of,
 )
 from rovercheck.spec_model.lang.domain import Domain, Num, common_resolution, fixed, in_resolution
 from rovercheck.spec_model.lang.expr import Const, Expr, Var, rescale
@@ -65,6 +69,7 @@ class DataTable:
     given: Mapping[str, Domain] = field(default_factory=dict)
     ranges: dict[str, LearnedRange] = field(default_factory=dict)
     kinds_of: dict[str, tuple[str, int, int]] = field(default_factory=dict)
+    structures: dict[str, Symbolic] = field(default_factory=dict)
     counters: dict[tuple[str, str], int] = field(default_factory=dict)
     """Counters of states, by the state's path and what is counted, with the steps up to which it matters."""
     watched: dict[str, dict[str, int]] = field(default_factory=dict)
@@ -158,6 +163,16 @@ class DataTable:
         """A value of that type was written to a datum without one: it keeps the first."""
         if name not in self.kinds_of:
             self.kinds_of[name] = kind, rows, columns
+            self.changed.add(name)
+
+    def saw_value(self, name: str, value: Symbolic) -> None:
+        """A value was written to a persistent variable; a structure that a script makes has elements."""
+        if not isinstance(value, SymbolicStructure):
+            self.saw(name, "double" if value.kind == UNTYPED else value.kind, *size_of(value))
+        elif name not in self.structures:
+            kinds = ("double" if one.kind == UNTYPED else one.kind for _, one in leaves(value, ""))
+            zeros = [single_of(self.kinds.first_value(one)) for one in kinds]
+            self.structures[name] = filled(value, iter(zeros))
             self.changed.add(name)
 
     def begin(self) -> None:

@@ -111,16 +111,13 @@ class ElementWriter(ABC):
         return [as_number(one) for one in given]
 
     def _matrix(self, rows: Sequence[Sequence[Symbolic]], scope: TextScope) -> Symbolic:
-        every = [[one for value in row for one in flat(value)] for row in rows]
-        width = max(map(len, every), default=0)
+        every = [line for row in rows for line in _beside([one for one in row if flat(one)])]
+        width = len(every[0]) if every else 0
         if any(len(row) != width for row in every):
             raise NotLowered("the rows of a matrix are not as long as each other")
-        kinds = [one.kind for row in every for one in row]
-        kind = next(
-            (k for k in kinds if k not in ("double", LOGICAL, UNTYPED)), kinds[0] if kinds else "double"
-        )
+        kind = _kind_of_all([one.kind for row in every for one in row])
         made = SymbolicArray(kind, len(every), width, tuple(one for row in every for one in row))
-        if not kinds:
+        if not every:
             return made
         found = each_converted(made, kind, scope.rules, self.table.kinds)
         return matrix(flat(found), len(every), width)
@@ -140,6 +137,26 @@ class ElementWriter(ABC):
             for at in range(int(count) + 1 if count >= 0 else 0)
         ]
         return matrix(values, 1, len(values), kind) if len(values) != 1 else values[0]
+
+
+def _beside(blocks: Sequence[Symbolic]) -> list[list[SymbolicScalar]]:
+    """The rows of matrices that stand beside each other.  Raises ``NotLowered`` for others."""
+    heights = {size_of(one)[0] for one in blocks}
+    if len(heights) > 1:
+        raise NotLowered("matrices that stand beside each other have not as many rows")
+    made: list[list[SymbolicScalar]] = [[] for _ in range(max(heights, default=0))]
+    for one in blocks:
+        columns = size_of(one)[1]
+        for at, row in enumerate(made):
+            row += flat(one)[at * columns : (at + 1) * columns]
+    return made
+
+
+def _kind_of_all(kinds: Sequence[str]) -> str:
+    """The type of a matrix of these: the first of integers or members, else the strongest of the others."""
+    weaker = ("single", "double", UNTYPED, LOGICAL)
+    strong = (one for one in kinds if one not in weaker)
+    return next(strong, next((one for one in weaker if one in kinds), "double"))
 
 
 def _one_of(values: Sequence[SymbolicScalar], at: Expr, first: int) -> SymbolicScalar:

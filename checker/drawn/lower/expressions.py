@@ -26,15 +26,21 @@ from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, 
 from rovercheck.checker.drawn.lower.data import DataTable
 from rovercheck.checker.drawn.lower.elements import ElementWriter
 from rovercheck.checker.drawn.lower.matrix_functions import (
+    CODER_VALUES,
+    CODER_WORDS,
     EXTREMES,
     FURTHER,
+    REDUCTIONS,
     TYPED,
     limit_of,
     place_of_extreme,
+    reduced,
+    sorted_values,
 )
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
+    MADE,
     TWO_TYPES,
     UNTYPED,
     NotLowered,
@@ -187,6 +193,8 @@ class ExpressionWriter(ElementWriter):
             if (kept := self.persistent.get(f"{scope.keeper}.{name}")) is not None:
                 return self._now(kept)
             raise NotLowered(f"{name} is read, and nothing is assigned to it before")
+        if name in scope.results:
+            raise NotLowered(f"{name} is read, and nothing is assigned to it before")
         if (datum := datum_in(scope.node, name)) is not None:
             return self._now(self.cells[datum.ssid])
         found = self.several(expression, scope)
@@ -205,7 +213,7 @@ class ExpressionWriter(ElementWriter):
     def is_datum(self, name: str, scope: TextScope) -> bool:
         """Whether a name is that of a variable or a datum."""
         local = bool(scope.function) and f"{scope.function}:{name}" in self.writer.locals
-        return local or name in scope.kept or datum_in(scope.node, name) is not None
+        return local or name in scope.kept or name in scope.results or datum_in(scope.node, name) is not None
 
     def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
         """All values of a call; of anything else its value."""
@@ -229,6 +237,12 @@ class ExpressionWriter(ElementWriter):
                 if isinstance(value, SymbolicStructure) and name in value.elements:
                     return [value.elements[name]]
                 raise NotLowered(f"there is no element {name}")
+            case Applied(Member(Name("coder"), word), arguments) if not self.is_datum("coder", scope):
+                if word in CODER_VALUES and arguments:
+                    return [self.value(arguments[0], scope)]
+                if word in CODER_WORDS:
+                    return []
+                raise NotLowered(f"coder.{word} reaches outside of the model")
             case Applied(Name(name), arguments) if not self.is_datum(name, scope):
                 return self._called(name, arguments, scope)
             case Applied(whole, arguments):
@@ -251,15 +265,28 @@ class ExpressionWriter(ElementWriter):
         if name in NOTHING and name not in scope.script and function is None:
             return []
         own = name in scope.script or function is not None
+        if name == "struct" and not own:
+            return [self._structure(given, scope)]
         texts = [] if own else [one.value for one in given if isinstance(one, TextLiteral)]
         values = self._in_turn([one for one in given if own or not isinstance(one, TextLiteral)], scope)
         if name in scope.script:
             return self.script(scope.script[name], values, scope)
         if function is not None:
             return self.call(function, values, scope)
+        if name == "sort" and len(values) == 1 and texts in ([], ["ascend"], ["descend"]):
+            return [sorted_values(values[0], texts == ["descend"])]
+        if name == "error":
+            self.writer.fault(f"error(...) may be called: {' '.join(texts)}".rstrip(": "))
+            return []
         if texts or name in TYPED:
             return [self._typed(name, values, texts, scope)]
         try:
+            if name == "isempty" and values and isinstance(values[0], SymbolicStructure):
+                return [truth(const(False))]
+            if name in REDUCTIONS and values and not isinstance(values[0], SymbolicStructure):
+                lines = reduced(name, values, scope.rules, self.table.kinds)
+                if lines is not None:
+                    return [lines]
             if name in BUILTINS:
                 made = BUILTINS[name](values, scope.rules, self.table.kinds)
                 extreme = name in EXTREMES and len(values) == 1
@@ -272,6 +299,13 @@ class ExpressionWriter(ElementWriter):
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(f"{name} is no datum, event or function that is known here")
+
+    def _structure(self, given: Sequence[Expression], scope: TextScope) -> Symbolic:
+        """``struct('name', value, ...)``."""
+        names = [one.value if isinstance(one, TextLiteral) else "" for one in given[::2]]
+        if not all(names) or len(given) % 2:
+            raise NotLowered("struct takes pairs of a name, as a text, and a value")
+        return SymbolicStructure(MADE, dict(zip(names, self._in_turn(given[1::2], scope), strict=True)))
 
     def _in_turn(self, given: Sequence[Expression], scope: TextScope) -> list[Symbolic]:
         """The values of arguments, each as it is before the later ones are computed."""

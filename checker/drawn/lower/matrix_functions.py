@@ -6,7 +6,7 @@ from functools import reduce
 from math import pi
 
 from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary
-from rovercheck.checker.drawn.lower.builtins import BUILTINS, Arguments, Builtin
+from rovercheck.checker.drawn.lower.builtins import BUILTINS, Arguments, Builtin, greatest, least
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_condition, as_number, in_range
 from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.rounding import by_cases, remainder, sum_of, toward_zero
@@ -24,6 +24,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     size_of,
     truth,
 )
+from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import Expr, any_of, const
 
 PLAIN = {
@@ -137,7 +138,8 @@ def _flip(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbol
 
 def _shifted(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
     """``circshift`` of a vector."""
-    every, by = flat(arguments[0]), single_of(arguments[1]).constant
+    every, steps = flat(arguments[0]), flat(arguments[1])
+    by = steps[-1 if size_of(arguments[0])[0] == 1 else 0].constant
     if by is None or min(size_of(arguments[0])) > 1:
         raise NotLowered("circshift is known of a vector, by a constant")
     at = -int(by) % len(every)
@@ -151,6 +153,83 @@ def _is_member(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> S
         for one in flat(arguments[0])
     ]
     return matrix(made, *size_of(arguments[0]))
+
+
+def _repeated(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
+    """``repmat``: a matrix beside and below itself."""
+    times = _constants(arguments[1:], "repmat")
+    down, across = (times * 2)[:2]
+    rows, columns = size_of(arguments[0])
+    every = flat(arguments[0])
+    line = [every[at * columns : (at + 1) * columns] for at in range(rows)]
+    made = [one for _ in range(down) for row in line for _ in range(across) for one in row]
+    return matrix(made, rows * down, columns * across)
+
+
+def _constants(arguments: Arguments, name: str) -> list[int]:
+    given = [one.constant for argument in arguments for one in flat(argument)]
+    if any(one is None for one in given):
+        raise NotLowered(f"{name} with a size that is no constant")
+    return [int(one) for one in given if one is not None]
+
+
+def _unit_matrix(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
+    rows, columns = ((_constants(arguments, "eye") or [1]) * 2)[:2]
+    return matrix((number("double", r == c) for r in range(rows) for c in range(columns)), rows, columns)
+
+
+def _all_of(value: bool) -> Builtin:
+    """``true`` and ``false``, perhaps as a matrix."""
+
+    def apply(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
+        if not arguments:
+            return truth(const(value))
+        made = BUILTINS["zeros"](arguments, rules, kinds)
+        return matrix((truth(const(value)) for _ in flat(made)), *size_of(made))
+
+    return apply
+
+
+def reduced(name: str, arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic | None:
+    """A function of ``REDUCTIONS`` along the columns of a matrix, or along the dimension that is given.
+
+    ``None`` where the whole value is meant.
+    """
+    value, more = arguments[0], list(arguments[1:])
+    if name in EXTREMES and more:
+        if len(more) != 2 or flat(more[0]):
+            return None
+        del more[0]
+    rows, columns = size_of(value)
+    if not flat(value) or (not more and min(rows, columns) == 1):
+        return None
+    along = _constants(more, name)[0] if more else 1
+    if along not in (1, 2):
+        raise NotLowered(f"{name} along dimension {along}: matrices have two here")
+    every = flat(value)
+    if along == 1:
+        lines = [every[at::columns] for at in range(columns)]
+    else:
+        lines = [every[at * columns : (at + 1) * columns] for at in range(rows)]
+    function = BUILTINS.get(name) or FURTHER[name]
+    made = [single_of(function([matrix(line, 1, len(line))], rules, kinds)) for line in lines]
+    return matrix(made, 1, columns) if along == 1 else matrix(made, rows, 1)
+
+
+def sorted_values(value: Symbolic, descends: bool) -> Symbolic:
+    """``sort`` of a vector: neighbours change places until all are in order."""
+    if min(size_of(value)) > 1:
+        raise NotLowered("sort of a matrix: take its rows one by one")
+    every = list(flat(value))
+    if any(not isinstance(one.expr.sort, Num) for one in every):
+        raise NotLowered("sort of what are no numbers: convert them, as in double(x)")
+    for done in range(len(every)):
+        for at in range(len(every) - 1 - done):
+            one, other = every[at], every[at + 1]
+            low = SymbolicScalar(one.kind, least(one.expr, other.expr))
+            high = SymbolicScalar(one.kind, greatest(one.expr, other.expr))
+            every[at : at + 2] = (high, low) if descends else (low, high)
+    return matrix(every, *size_of(value))
 
 
 def _always(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
@@ -173,6 +252,8 @@ FURTHER: Mapping[str, Builtin] = {
     "isscalar": lambda arguments, rules, kinds: truth(const(size_of(arguments[0]) == (1, 1))),
     "pi": lambda arguments, rules, kinds: number("double", Fraction(pi)),
     "eps": lambda arguments, rules, kinds: number("double", Fraction(1, 2**52)),
+    "repmat": _repeated, "eye": _unit_matrix, "true": _all_of(True), "false": _all_of(False),
+    "deal": lambda arguments, rules, kinds: arguments[0],
     "fabs": lambda arguments, rules, kinds: BUILTINS["abs"]([_real(arguments[0])], rules, kinds),
     "labs": BUILTINS["abs"], "fmod": _real_remainder, "pow": _real_power, "ldexp": _scaled,
 }  # fmt: skip
@@ -198,9 +279,18 @@ def limit_of(name: str, kind: str) -> Symbolic:
     return number(kind, INTEGERS[kind][name == "intmax"])
 
 
+CODER_VALUES = ("const", "nullcopy", "ignoreConst")
+"""Functions of ``coder`` that give their argument."""
+CODER_WORDS = ("inline", "extrinsic", "varsize", "unroll", "allowpcode", "cinclude", "updateBuildInfo")
+"""Functions of ``coder`` without an effect."""
+REDUCTIONS = ("sum", "prod", "mean", "min", "max", "any", "all")
+"""Functions that make one value of many."""
 TYPED = ("cast", "isa", "intmax", "intmin")
 """Functions that ask for, or make, a type."""
 EXTREMES = ("min", "max")
 """Functions with two results."""
 
-__all__ = ["EXTREMES", "FURTHER", "TYPED", "limit_of", "place_of_extreme"]
+__all__ = [
+    "CODER_VALUES", "CODER_WORDS", "EXTREMES", "FURTHER", "REDUCTIONS", "TYPED", "limit_of",
+    "place_of_extreme", "reduced", "sorted_values",
+]  # fmt: skip

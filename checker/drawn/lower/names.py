@@ -18,7 +18,8 @@ class TextScope:
 
     ``left`` is raised once what the text still does is dropped, as its state was left: it goes on while
     ``alive`` gives a condition that holds.  ``returned``, ``broken`` and ``continued`` are raised once a
-    function, a loop or a turn of it ends.  ``last`` is the meaning of ``end``.
+    function, a loop or a turn of it ends.  ``results`` are the names of what a function gives, ``last`` is
+    the meaning of ``end``.
     """
 
     node: StateNode
@@ -27,6 +28,7 @@ class TextScope:
     function: str = ""
     script: dict[str, ScriptFunction] = field(default_factory=dict)
     kept: set[str] = field(default_factory=set)
+    results: tuple[str, ...] = ()
     keeper: str = ""
     calls: tuple[str, ...] = ()
     left: Var | None = None

@@ -28,6 +28,7 @@ from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in
 from rovercheck.checker.drawn.lower.symbols import (
+    MADE,
     UNTYPED,
     NotLowered,
     Symbolic,
@@ -79,13 +80,15 @@ class StatementWriter(ExpressionWriter):
         key = ">".join((*scope.calls, signature.name))
         own = replace(
             scope, function=key, rules=IntegerRules(False, scope.rules.saturates), kept=set(),
-            calls=(*scope.calls, signature.name), broken=None, continued=None, left=None,
+            calls=(*scope.calls, signature.name), results=signature.outputs, broken=None, continued=None,
+            left=None,
         )  # fmt: skip
         outer = self.writer.locals
         self.writer.locals = dict(outer)
         for name, value in zip(signature.inputs, arguments, strict=False):
             if name is not None:
                 self._local(name, value, own)
+        self._local("nargin", number("double", len(arguments)), own)
         with self.writer.until(f"{signature.name}_returned") as returned:
             self.run(function.body, replace(own, returned=returned))
         found = [
@@ -241,10 +244,13 @@ class StatementWriter(ExpressionWriter):
             case Name(name):
                 self._set(name, value, scope)
             case Member(owner, name):
-                whole = self.value(owner, scope)
-                if not isinstance(whole, SymbolicStructure) or name not in whole.elements:
+                whole = self._owner(owner, scope)
+                if not isinstance(whole, SymbolicStructure) or name not in (
+                    [name] if whole.kind == MADE else whole.elements
+                ):
                     raise NotLowered(f"there is no element {name} to write to")
-                made = self._like(whole.elements[name], value, scope)
+                old = whole.elements.get(name)
+                made = value if old is None else self._like(old, value, scope)
                 self._write(owner, SymbolicStructure(whole.kind, {**whole.elements, name: made}), scope)
             case Applied(of, indices):
                 whole = self.value(of, scope)
@@ -261,10 +267,23 @@ class StatementWriter(ExpressionWriter):
             case _:
                 raise NotLowered("what is assigned to is no datum")
 
+    def _owner(self, owner: Expression, scope: TextScope) -> Symbolic:
+        """What has an element that is written: in a script it is made by that."""
+        match owner:
+            case Name(name) if scope.function and f"{scope.function}:{name}" not in self.writer.locals:
+                if name in scope.results or not self.is_datum(name, scope):
+                    return SymbolicStructure(MADE, {})
+            case Member(outer, name):
+                whole = self._owner(outer, scope)
+                if isinstance(whole, SymbolicStructure) and whole.kind == MADE:
+                    return whole.elements.get(name, SymbolicStructure(MADE, {}))
+        return self.value(owner, scope)
+
     def _like(self, old: Symbolic, value: Symbolic, scope: TextScope) -> Symbolic:
         """A value in the type and the size of what it takes the place of."""
         if isinstance(old, SymbolicStructure) or isinstance(value, SymbolicStructure):
-            if old.kind != value.kind:
+            names = [[name for name, _ in leaves(one, "")] for one in (old, value)]
+            if old.kind != value.kind or names[0] != names[1]:
                 raise NotLowered(f"a value of {value.kind} takes the place of one of {old.kind}")
             return value
         made = each_converted(value, flat(old)[0].kind, scope.rules, self.table.kinds)
@@ -318,7 +337,9 @@ class StatementWriter(ExpressionWriter):
         if name in scope.kept:
             self._keep(name, value, scope)
         elif scope.function and (
-            f"{scope.function}:{name}" in self.writer.locals or datum_in(scope.node, name) is None
+            f"{scope.function}:{name}" in self.writer.locals
+            or name in scope.results
+            or datum_in(scope.node, name) is None
         ):
             self._local(name, value, scope)
         elif (one := datum_in(scope.node, name)) is not None:
@@ -356,19 +377,19 @@ class StatementWriter(ExpressionWriter):
     def _recall(self, name: str, scope: TextScope) -> None:
         """The memory of a persistent variable, if its type is known already."""
         key = f"{scope.keeper}.{name}"
-        known = self.table.kind_of(key)
-        if key not in self.persistent and known is not None:
+        known, first = self.table.kind_of(key), self.table.structures.get(key)
+        if first is None and known is not None:
             first = self.table.kinds.first_value(*known)
+        if key not in self.persistent and first is not None:
             self.persistent[key] = self.table.declared(key, first, hidden=True)
             unset = self.table.declared(f"{key}?", truth(TRUE), hidden=True)
             self.persistent[f"{key}?"] = unset
 
     def _keep(self, name: str, value: Symbolic, scope: TextScope) -> None:
         key = f"{scope.keeper}.{name}"
-        kind = "double" if value.kind == UNTYPED else value.kind
-        if is_structure(kind):
-            raise NotLowered(f"{name} is persistent and a structure: keep each element")
-        self.table.saw(key, kind, *size_of(value))
+        if is_structure(value.kind):
+            raise NotLowered(f"{name} is persistent and of a bus: keep each element")
+        self.table.saw_value(key, value)
         self._recall(name, scope)
         self._all(self.persistent[key], value, scope)
         self.table.write(self.writer, single_of(self.persistent[f"{key}?"]), FALSE)

@@ -53,11 +53,14 @@ class SymbolicArray:
 
 @dataclass(frozen=True)
 class SymbolicStructure:
-    """The elements of a bus by name."""
+    """The elements of a bus, or of a structure that a script makes, ``struct``, by name."""
 
     kind: str
     elements: Mapping[str, "Symbolic"]
 
+
+MADE = "struct"
+"""The kind of structures that scripts make."""
 
 Symbolic: TypeAlias = Union[SymbolicScalar, SymbolicArray, SymbolicStructure]
 
@@ -182,7 +185,7 @@ def least_and_greatest(expr: Expr) -> tuple[Fraction, Fraction]:
 
 
 __all__ = [
-    "INTEGERS", "LOGICAL", "REALS", "TWO_TYPES", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray",
+    "INTEGERS", "LOGICAL", "MADE", "REALS", "TWO_TYPES", "UNTYPED", "NotLowered", "Symbolic", "SymbolicArray",
     "SymbolicScalar", "SymbolicStructure", "chosen", "constant_of", "filled", "flat", "folded",
     "least_and_greatest", "leaves", "matrix", "number", "single_of", "size_of", "truth",
 ]  # fmt: skip

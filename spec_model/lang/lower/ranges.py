@@ -61,7 +61,9 @@ def _possible(expr: Expr) -> Possible:
         case Const(value, _):
             return frozenset({value})
         case Var(_, domain):
-            return frozenset(domain.values) if len(domain) <= _FEW else range(domain.low, domain.high + 1)
+            if domain.dense or len(domain) > _FEW:
+                return range(domain.low, domain.high + 1)
+            return frozenset(domain.values)
         case Apply(op, _, _) if OPERATIONS[op] is _truth:
             return frozenset({0, 1})
         case Apply(Op.ITE, (_, then, otherwise), _):
@@ -74,8 +76,10 @@ def _possible(expr: Expr) -> Possible:
 
 
 def _union(a: Possible, b: Possible) -> Possible:
-    if isinstance(a, frozenset) and isinstance(b, frozenset) and len(a) + len(b) <= _FEW:
-        return a | b
+    if isinstance(a, range) and isinstance(b, range) and a.start <= b.stop and b.start <= a.stop:
+        return range(min(a.start, b.start), max(a.stop, b.stop))
+    if len(a) + len(b) <= _FEW:
+        return _plainest(frozenset(a) | frozenset(b))
     ends = (*_ends(a), *_ends(b))
     return range(min(ends), max(ends) + 1)
 
@@ -90,11 +94,15 @@ def _image(op: Op, args: list[Possible]) -> Possible:
     for arg in args:
         count *= len(arg)
     if op in _CLOSED and all(map(_is_dense, args)):
-        found = _interval(op, [_ends(a) for a in args])
-        return frozenset(found) if count <= _FEW else found
+        return _interval(op, [_ends(a) for a in args])
     if count <= _FEW:
-        return frozenset(operate(op, *values) for values in product(*args))
+        return _plainest(frozenset(operate(op, *values) for values in product(*args)))
     return _interval(op, [_ends(a) for a in args])
+
+
+def _plainest(values: frozenset[int]) -> Possible:
+    """The same values as a range, if they are one."""
+    return range(min(values), max(values) + 1) if _is_dense(values) else values
 
 
 def _is_dense(values: Possible) -> bool:
@@ -151,7 +159,7 @@ def fits(expr: Expr, domain: Domain) -> bool:
     if domain.dense:
         low, high = _ends(values)
         return domain.low <= low and high <= domain.high
-    return isinstance(values, frozenset) and values <= frozenset(domain.values)
+    return len(values) <= _FEW and frozenset(values) <= frozenset(domain.values)
 
 
 def within(expr: Expr, domain: Domain) -> Expr:

@@ -43,7 +43,7 @@ WINDOW = ChartText(
 
 
 def _window(rows: Iterable[Row]) -> Outs:
-    state, up_out, down_out, ticks, inside = "", 0, 0, 0, 0
+    state, up_out, down_out, ticks = "", 0, 0, 0
     for row in rows:
         up, down, stop = row["up"], row["down"], row["endstop"]
         ticks += 1
@@ -71,7 +71,6 @@ def _window(rows: Iterable[Row]) -> Outs:
             state, ticks = go, 0
             up_out = int(go in ("auto_up", "hold_up"))
             down_out = int(go in ("auto_down", "emergency"))
-        inside += 1
         yield up_out, down_out
 
 
@@ -90,7 +89,7 @@ WASHER = ChartText(
     subchart Busy: du: minutes = minutes + 1;\\nex: motor(:) = 0;
         -> Fill: {switch prog, case {1, 2}, cycles = 2; case 3, cycles = 1; otherwise, cycles = 0; end}
         state Fill: en: phase = Phase.FILL;
-        state Wash: en:\\nphase = Phase.WASH; %% both ways\\nmotor = int8(1);\\non every(2, tick): motor = -motor;
+        state Wash: en:\\nphase = WASH; %% both\\nmotor = int8(1);\\non every(2, tick): motor = -motor;
         state Spin: en: phase = SPIN;\\nmotor = int8(100)
         history H
         Fill -> Wash: after(2, tick)
@@ -106,7 +105,8 @@ WASHER = ChartText(
     """,
     "MATLAB",
     files={
-        "Phase.m": "classdef Phase < Simulink.IntEnumType\n  % phases\n  enumeration\n    IDLE(0)\n    FILL (1)\n"
+        "Phase.m": "classdef Phase < Simulink.IntEnumType\n  % phases\n  enumeration\n    IDLE(0)\n"
+        "    FILL (1)\n"
         "    WASH(2)  % the long one\n    SPIN(5)\n    PAUSED(7), DONE(9)\n  end\nend\n"
     },
 )
@@ -326,7 +326,7 @@ CHECKSUM = ChartText(
     junction end
     Idle -> Run: [valid]
     Run -> head: [valid]{crc ^= byte_; k = 0; n++;}
-    head -> body: [k < 8]
+    head -> body: [k < 5]
     head -> Idle: [n > 3]{bad = crc & 0x80;}
     head -> end
     body -> shift: [(crc & 0x80) != 0]{crc = (crc << 1) ^ 0x31;}
@@ -350,7 +350,7 @@ def _checksum(rows: Iterable[Row]) -> Outs:
             if valid:
                 crc ^= byte
                 n += 1
-                for _ in range(8):
+                for _ in range(5):
                     crc = ((crc << 1) ^ (0x31 if crc & 0x80 else 0)) & 255
                 if n > 3:
                     bad, back = int(bool(crc & 0x80)), True
@@ -411,7 +411,7 @@ def _abort(rows: Iterable[Row]) -> Outs:
         elif state == "Pad":
             if row["go"]:
                 state, monitor, mode, armed, held = "Low", "Ok", 1, 1, 0
-        elif state == "Tower" or state == "Coast":
+        elif state in ("Tower", "Coast"):
             if safe and (state == "Tower" or alt < 50):
                 state, mode, armed = "Pad", 0, 0
         else:

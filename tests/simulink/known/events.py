@@ -1,6 +1,6 @@
 """Events in charts: early return in each kind of action, events to one state, counted events.
 
-The rules are those of the manual's chapter on early return logic, and of the charts by which papers show them.
+The rules are those of the manual's chapter on early return logic, and of charts in papers.
 """
 
 from collections.abc import Iterable, Iterator

@@ -106,7 +106,7 @@ BOILER = ChartText(
         -> l: {y = temp > reference;}
     -> Off
     state Off: entry: turn_boiler(OFF), color = RED;\\non every(5,sec): flash_LED();
-    state On: entry: turn_boiler(ON);\\nduring: color = GREEN;\\non every(1,sec): flash_LED();\\nexit: color = RED
+    state On: entry: turn_boiler(ON);\\ndu: color = GREEN;\\non every(1,sec): flash_LED();\\nex: color = RED
         -> HIGH
         state HIGH
         state NORM
@@ -256,9 +256,7 @@ def _debouncer(rows: Iterable[Row]) -> Outs:
         go = state
         if not state:
             go = "Off"
-        elif state == "Off" and (sw >= 0.1 or sw <= -0.1):
-            go = band
-        elif state == "On" and abs(sw) < 0.1:
+        elif (state == "Off" and (sw >= 0.1 or sw <= -0.1)) or (state == "On" and abs(sw) < 0.1):
             go = band
         elif state in ("Zero", "Pos", "Neg"):
             if cnt >= 12:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 from typing import Literal
-from xml.sax.saxutils import escape, quoteattr
+from xml.sax.saxutils import escape
 
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.simulink.model import read_model
@@ -43,9 +43,10 @@ class Element:
 class ChartText:
     """A chart by lines, of which the words mean what they say; what is indented is drawn inside.
 
-    ``in u int8``, ``out y = 3``, ``event E``, ``event E input rising``; ``state A: en: y = 1;`` (``\\n`` is a line
-    break), ``region``, ``subchart``, ``box``, ``function``; ``junction j``, ``history h``; ``-> A`` is a default
-    transition, ``A -> B: label`` another one, ``A -2-> B`` the second in order; one from A inside A is inner.
+    ``in u int8``, ``out y = 3``, ``event E``, ``event E input rising``; ``state A: en: y = 1;`` (``\\n`` is a
+    line break), ``region``, ``subchart``, ``box``, ``function``; ``junction j``, ``history h``; ``-> A`` is a
+    default transition, ``A -> B: label`` another one, ``A -2-> B`` the second in order; one from A inside A
+    is inner.
     """
 
     name: str
@@ -231,7 +232,8 @@ class _Package:
         blocks, lines, inside, wires = [], [], [], []
 
         def line(source: str, target: str) -> str:
-            return f'<Line ZOrder="1"><P Name="ZOrder">1</P><P Name="Src">{source}</P><P Name="Dst">{target}</P></Line>'
+            ends = f'<P Name="Src">{source}</P><P Name="Dst">{target}</P>'
+            return f'<Line ZOrder="1"><P Name="ZOrder">1</P>{ends}</Line>'
 
         for number, (name, kind) in enumerate(ins, 1):
             sized = _SIZED.fullmatch(name)
@@ -239,14 +241,16 @@ class _Package:
             size = f'<P Name="PortDimensions">{sized[2]}</P>' if sized[2] else ""
             port = f'<P Name="Port">{number}</P>' if number > 1 else ""
             blocks.append(
-                f'<Block BlockType="Inport" Name="{sized[1]}" SID="{number}"><P Name="Position">[25, 38, 55, 52]</P>'
+                f'<Block BlockType="Inport" Name="{sized[1]}" SID="{number}">'
+                '<P Name="Position">[25, 38, 55, 52]</P>'
                 f'<P Name="ZOrder">-1</P>{port}{size}<P Name="IconDisplay">Port number</P>'
                 f'<P Name="OutDataTypeStr">{kind}</P></Block>'
             )
             lines.append(line(f"{number}#out:1", f"50#in:{number}"))
             inside.append(
-                f'<Block BlockType="Inport" Name="{sized[1]}" SID="50::{number}"><P Name="Position">[20, 101, 40, 119]'
-                f'</P>{port}<P Name="IconDisplay">Port number</P></Block>'
+                f'<Block BlockType="Inport" Name="{sized[1]}" SID="50::{number}">'
+                f'<P Name="Position">[20, 101, 40, 119]</P>{port}'
+                '<P Name="IconDisplay">Port number</P></Block>'
             )
             wires.append(line(f"50::{number}#out:1", f"50::90#in:{number}"))
         for number, (name, _) in enumerate(outs, 1):
@@ -254,8 +258,9 @@ class _Package:
             sized = _SIZED.fullmatch(name)
             assert sized
             blocks.append(
-                f'<Block BlockType="Outport" Name="{sized[1]}" SID="{60 + number}"><P Name="Position">[370, 38, 400, 52]'
-                f'</P>{port}<P Name="IconDisplay">Port number</P></Block>'
+                f'<Block BlockType="Outport" Name="{sized[1]}" SID="{60 + number}">'
+                f'<P Name="Position">[370, 38, 400, 52]</P>{port}'
+                '<P Name="IconDisplay">Port number</P></Block>'
             )
             lines.append(line(f"50#out:{number}", f"{60 + number}#in:1"))
             inside.append(
@@ -268,7 +273,8 @@ class _Package:
             for number, name in enumerate(names, 1):
                 sid = 30 + number
                 blocks.append(
-                    f'<Block BlockType="Inport" Name="{name}" SID="{sid}"><P Name="Port">{len(ins) + number}</P>'
+                    f'<Block BlockType="Inport" Name="{name}" SID="{sid}">'
+                    f'<P Name="Port">{len(ins) + number}</P>'
                     '<P Name="OutDataTypeStr">boolean</P></Block>'
                 )
                 if len(names) > 1:
@@ -291,7 +297,8 @@ class _Package:
             '<Block BlockType="Demux" Name=" Demux " SID="50::88"><P Name="Ports">[1, 1]</P>'
             '<P Name="Outputs">1</P></Block>',
             f'<Block BlockType="S-Function" Name=" SFunction " SID="50::90"><P Name="Ports">[{len(ins)}, '
-            f'{len(outs) + 1}]</P><P Name="FunctionName">sf_sfun</P><P Name="Tag">Stateflow S-Function known 1</P>'
+            f'{len(outs) + 1}]</P><P Name="FunctionName">sf_sfun</P>'
+            '<P Name="Tag">Stateflow S-Function known 1</P>'
             "</Block>",
             '<Block BlockType="Terminator" Name=" Terminator " SID="50::89"/>',
         ]
@@ -307,7 +314,8 @@ class _Package:
         blocks.append(
             f'<Block BlockType="SubSystem" Name="C" SID="50">{ports}<P Name="Position">[120, 20, 240, 90]</P>'
             '<P Name="ZOrder">-2</P><P Name="LibraryVersion">1.32</P><P Name="ErrorFcn">Stateflow.Translate.'
-            'translate</P><P Name="PermitHierarchicalResolution">ExplicitOnly</P><P Name="TreatAsAtomicUnit">on</P>'
+            'translate</P><P Name="PermitHierarchicalResolution">ExplicitOnly</P>'
+            '<P Name="TreatAsAtomicUnit">on</P>'
             '<P Name="RTWMemSecFuncInitTerm">Inherit from model</P><P Name="SFBlockType">Chart</P>'
             f'<P Name="Variant">off</P>{own}</Block>'
         )
@@ -332,7 +340,8 @@ class _Package:
         instance = (
             '<instance id="92"><P Name="machine">20</P><P Name="name">C</P><P Name="chart">21</P></instance>'
         )
-        version = f"<mwcoreProperties><matlabRelease>{'R2024a' if self.new else 'R2015a'}</matlabRelease></mwcoreProperties>"
+        release = "R2024a" if self.new else "R2015a"
+        version = f"<mwcoreProperties><matlabRelease>{release}</matlabRelease></mwcoreProperties>"
         made = {"metadata/mwcoreProperties.xml": head + version, "[Content_Types].xml": head + "<Types/>"}
         stateflow = (
             '<Stateflow><machine id="20"><P Name="isLibrary">0</P><P Name="sfVersion">76014001.0005</P>'
@@ -341,8 +350,9 @@ class _Package:
         if not self.new:
             made[DIAGRAM] = (
                 f'{head}<ModelInformation Version="1.0"><Model Name="known"><P Name="Version">8.5</P>'
-                f'<ConfigurationSet>{config}</ConfigurationSet><System><P Name="Location">[2, 70, 1442, 800]</P>'
-                f'<P Name="Open">on</P>{system}</System></Model></ModelInformation>'
+                f"<ConfigurationSet>{config}</ConfigurationSet><System>"
+                f'<P Name="Location">[2, 70, 1442, 800]</P><P Name="Open">on</P>'
+                f"{system}</System></Model></ModelInformation>"
             )
             made["simulink/stateflow.xml"] = head + stateflow.format(self._chart())
             return made
@@ -354,11 +364,12 @@ class _Package:
         made["simulink/systems/system_50.xml"] = f"{head}<System>{inside}</System>"
         made["simulink/configSet0.xml"] = f"{head}<ConfigSet>{config}</ConfigSet>"
         made["simulink/configSetInfo.xml"] = (
-            f'{head}<ConfigSetInfo><ConfigSet PartName="/simulink/configSet0.xml" Active="true"/></ConfigSetInfo>'
+            f'{head}<ConfigSetInfo><ConfigSet PartName="/simulink/configSet0.xml" Active="true"/>'
+            "</ConfigSetInfo>"
         )
         made["simulink/stateflow/machine.xml"] = head + stateflow.format('<chart Ref="chart_21"/>')
         made["simulink/stateflow/chart_21.xml"] = head + self._chart()
         return made
 
 
-__all__ = ["ChartText", "Layout", "quoteattr"]
+__all__ = ["ChartText", "Layout"]

@@ -1,7 +1,7 @@
 """The small charts by which papers on the semantics of Stateflow show its rules, each with a simulation.
 
-Scaife and others, "Defining and translating a safe subset of Simulink/Stateflow into Lustre" (2004); Hamon and
-Rushby, "An operational semantics for Stateflow" (2004); Bourbouh and others on CoCoSim.
+Scaife and others, "Defining and translating a safe subset of Simulink/Stateflow into Lustre" (2004); Hamon
+and Rushby, "An operational semantics for Stateflow" (2004); Bourbouh and others on CoCoSim.
 """
 
 from collections.abc import Iterable, Iterator

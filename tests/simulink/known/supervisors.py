@@ -1,4 +1,4 @@
-"""Supervisors as companies draw them: regions in regions, MATLAB functions with memory, enumerations, buses."""
+"""Supervisors as companies draw them: regions in regions, MATLAB functions with memory, single precision."""
 
 from collections.abc import Iterable, Iterator
 from struct import pack, unpack
@@ -153,9 +153,9 @@ def _fuel(rows: Iterable[Row]) -> Outs:
 RING = ChartText(
     "ring",
     """
-    in x int16
+    in x int8
     in push boolean
-    out mean int16
+    out mean int8
     out full boolean
     out level uint8
     function [m, f] = ring(v, keep)
@@ -179,22 +179,22 @@ SCRIPT = """function [m, f] = ring(v, keep)
 % a ring of four values
 persistent buf n at; % what is kept
 if isempty(buf)
-    buf = zeros(1, 4, 'int16'); n = uint8(0); at = 1;
+    buf = zeros(1, 4, 'int8'); n = uint8(0); at = 1;
 end
 if ~keep
     n = uint8(0); at = 1; buf(:) = 0;
-    m = int16(0); f = false;
+    m = int8(0); f = false;
     return
 end
 buf(at) = v;
 at = next(at);
 n = min(n + 1, uint8(4));
-total = int32(0);
+total = int16(0);
 for k = 1:numel(buf)
     if k > n, continue; end
-    total = total + int32(buf(k));
+    total = total + int16(buf(k));
 end
-m = int16(total / int32(n));
+m = int8(total / int16(n));
 f = n >= 4;
 end
 
@@ -210,7 +210,7 @@ def _ring(rows: Iterable[Row]) -> Outs:
     for row in rows:
         if not state:
             state = "Wait"
-        elif state == "Wait" and row["push"] or state == "Fill" and row["push"] and not full:
+        elif (state == "Wait" and row["push"]) or (state == "Fill" and row["push"] and not full):
             level += state == "Fill"
             buf = [*buf, int(row["x"])][-4:]
             total = sum(buf)
