@@ -133,6 +133,18 @@ def test_actions_and_guards_are_bound_in_a_file() -> None:
     assert ran(config, "E", "E", "E", bindings=bound)[1] == {"ring"}
 
 
+def test_what_the_export_may_have_lost_is_noted() -> None:
+    on = {"E": {}, "F": {"actions": "more"}, "G": {"target": "a"}}
+    found = machine({"initial": "a", "context": {"n": 0, "list": []}, "states": {"a": {"on": on}}}).notes
+    assert found == (
+        "Actions without a binding change no data: more.",
+        "No action assigns n, which keeps its first value.",
+        "These transitions do nothing; an action that was written as a function is lost in JSON: "
+        "a E (line 1).",
+        "Of the context these are no numbers or truth values: list.",
+    )
+
+
 # --- what is refused ---------------------------------------------------------------------------------------
 
 
