@@ -159,6 +159,10 @@ class MachineWriter(ActionWriter):
             self.internal[0] != NONE, partial(self._pop, self.internal),
             lambda: self.writer.choose(self.external[0] != NONE, partial(self._pop, self.external)),
         )  # fmt: skip
+        self.writer.choose(self.go, self._answer)
+
+    def _answer(self) -> None:
+        self._select([one for one in self.transitions if one.events])
 
     def _pop(self, queue: Sequence[Var]) -> None:
         self.writer.assign(self.event, queue[0])
@@ -166,7 +170,6 @@ class MachineWriter(ActionWriter):
             self.writer.assign(one, following)
         self.writer.assign(queue[-1], self._no_event())
         self._goes_on()
-        self._select([one for one in self.transitions if one.events])
 
     def asks(self, descriptor: str, event: str) -> bool:
         """Whether a descriptor matches the name of an event."""

@@ -11,6 +11,7 @@ from rovercheck import xstate_model
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.scxml.records import StateMachine
+from rovercheck.checker.scxml.system import lowered_machine
 from rovercheck.checker.scxml.xstate.bindings import Bindings
 from rovercheck.checker.scxml.xstate.interpret import XstateRunner
 from rovercheck.checker.scxml.xstate.reader import xstate_machine_of
@@ -133,6 +134,18 @@ def test_actions_and_guards_are_bound_in_a_file() -> None:
     assert ran(config, "E", "E", "E", bindings=bound)[1] == {"ring"}
 
 
+def test_what_the_export_may_have_lost_is_noted() -> None:
+    on = {"E": {}, "F": {"actions": "more"}, "G": {"target": "a"}}
+    found = machine({"initial": "a", "context": {"n": 0, "list": []}, "states": {"a": {"on": on}}}).notes
+    assert found == (
+        "Actions without a binding change no data: more.",
+        "No action assigns n, which keeps its first value.",
+        "These transitions do nothing; an action that was written as a function is lost in JSON: "
+        "a E (line 1).",
+        "Of the context these are no numbers or truth values: list.",
+    )
+
+
 # --- what is refused ---------------------------------------------------------------------------------------
 
 
@@ -242,3 +255,19 @@ def test_properties_speak_of_guards_actions_and_states_by_path_or_id() -> None:
     assert str(vending.active("serving.motor.done")) == str(vending.active("vending.serving.motor.done"))
     with pytest.raises(ModelError, match="no action without a binding 'addCoin'"):
         vending.ran("addCoin")
+
+
+def test_a_machine_of_many_states_with_delays_is_no_step_too_long() -> None:
+    def region(number: int) -> dict[str, Any]:
+        states = {
+            f"s{one}": {
+                "on": {f"E{(one + number) % 12}": f"s{(one * 7 + 1) % 20}", "BACK": "s0"},
+                **({"after": {"100": f"s{(one * 3) % 20}"}} if one % 5 == 0 else {}),
+            }
+            for one in range(20)
+        }
+        return {"initial": "s0", "states": states}
+
+    config = {"type": "parallel", "states": {f"r{number}": region(number) for number in range(3)}}
+    found = lowered_machine(machine(config), "toy.json", {})  # was refused: a choice for each delay
+    assert len(found.machine.states) == 64

@@ -66,6 +66,11 @@ def test_raise_and_send_stand_in_the_file() -> None:
     assert ran(config, "E")[0] == {"c"} and machine(config).offered == ("E",)
 
 
+def test_what_is_logged_changes_nothing() -> None:
+    log = {"type": "xstate.log", "label": "entered"}
+    assert machine({"initial": "a", "states": {"a": {"entry": [log, "beep"]}}}).actions == ("beep",)
+
+
 def test_an_event_that_is_raised_while_another_waits_is_told() -> None:
     both = [{"type": "xstate.raise", "event": one} for one in ("F", "G")]
     again = {"actions": {"type": "xstate.raise", "event": "G"}}
@@ -88,6 +93,7 @@ REGION: dict[str, Any] = {"initial": "b", "states": {"b": {"on": {"E": "c"}}, "c
             {"a": {"type": "parallel", "states": {"p": REGION, "q": {"on": {"E": "#m.o"}}}}, "o": {}},
             "leaves a for an event that another region of it answers too",
         ),
+        ({"a": {"entry": {"type": "xstate.send", "event": "E", "delay": 9}}}, "`send` with a delay"),
         ({"a": {"initial": {"target": "b"}, "states": {"b": {}}}}, "an `initial` of a with actions"),
     ],
 )  # fmt: skip

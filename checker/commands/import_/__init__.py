@@ -61,6 +61,8 @@ def import_(
 ) -> Exit:
     """Say what is drawn in a file of Simulink: charts, blocks, types, events, timers; without MATLAB.
 
+    A machine in SCXML (.scxml) or of XState (.json) is read in the same way.
+
     Exit code 2 if something in it has no meaning here, 1 if a log differs from the model.
     """
     if model.suffix in (".scxml", ".json"):  # what reads either is loaded only then

@@ -31,6 +31,8 @@ class XstateContent:
         self.faults: list[str] = []
         self.data: dict[str, bool | int] = {}
         self.others: list[str] = []
+        self.idle: list[str] = []
+        """Transitions with neither target nor actions."""
         self.sends: list[SendEvent] = []
         self.raised: set[str] = set()
         self.states: frozenset[str] = frozenset()
@@ -51,11 +53,21 @@ class XstateContent:
             raise ModelError("\n".join(dict.fromkeys(self.faults)))
 
     def notes(self) -> Iterator[str]:
-        """What is read in another way than it is written."""
+        """What is read in another way than it is written, and what the export may have lost."""
         if self.free_guards:
             yield (
                 "Guards without a binding are inputs, the same in all of a step: "
                 f"{', '.join(self.free_guards)}."
+            )
+        if self.free_actions and self.data:
+            yield f"Actions without a binding change no data: {', '.join(self.free_actions)}."
+        assigned = {one.name for made in self.bound.values() for one in made if isinstance(one, AssignDatum)}
+        if kept := [name for name in self.data if name not in assigned]:
+            yield f"No action assigns {', '.join(kept)}, which keeps its first value."
+        if self.idle:
+            yield (
+                "These transitions do nothing; an action that was written as a function is lost in JSON: "
+                f"{', '.join(self.idle)}."
             )
         if self.others:
             yield f"Of the context these are no numbers or truth values: {', '.join(self.others)}."
@@ -205,6 +217,11 @@ class XstateContent:
             made = SendEvent(len(self.sends) + 1, event, 0, "", value.line)
             self.sends.append(made)
             return (made,)
+        if self.version == 4 and kind == "xstate.log":  # changes nothing
+            return ()
+        if self.version == 4 and kind == "xstate.send":
+            self.fault(value, "`send` with a delay, or to another machine. Write `after`, or a named action")
+            return ()
         name = self._named(value, "action")
         if name is None:
             return ()

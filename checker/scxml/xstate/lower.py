@@ -96,6 +96,7 @@ class XstateWriter(MachineWriter):
         for queue in (self.external, self.internal):
             chosen = partial(self.writer.choose, queue[0] != NONE, partial(self._pop, queue), chosen)
         chosen()
+        self.writer.choose(self.go, self._answer)
 
     def _take_due(self, sends: Sequence[SendEvent]) -> "partial[None]":
         chosen = partial(self._nothing)
@@ -110,18 +111,17 @@ class XstateWriter(MachineWriter):
         self.writer.assign(self.due[sent.number], FALSE)
         if sent.event in self.view.event_names:
             self.writer.assign(self.event, Const(self.view.events.raw(sent.event), self.event.sort))
-        self._answer()
-
-    def _pop(self, queue: Sequence[Var]) -> None:
-        super()._pop(queue)
-        if self.eventless:
-            self.writer.assign(self.may, TRUE)
+        self._goes_on()
 
     def _answer(self) -> None:
-        self._goes_on()
-        self._select([one for one in self.transitions if one.events])
+        super()._answer()
         if self.eventless:
             self.writer.assign(self.may, TRUE)
+
+    @property
+    def _answers_itself(self) -> bool:
+        delays = {one.event for one in self.machine.sends if one.delay}
+        return bool(self.eventless) or any(one not in delays for one in self.machine.internal)
 
     def _refuse_unsettled(self) -> None:
         eventless = [all_of(self.may, self._condition(one)) for one in self.eventless]

@@ -163,11 +163,14 @@ class TransitionReader:
         guard = inner.get("guard", inner.get("cond"))
         target = inner.get("target")
         targets = () if target is None else self._targets(state, target)
-        return MachineTransition(
+        made = MachineTransition(
             state, events, content.guard(guard), content.label(guard), targets,
             self._inside(target, inner.get("reenter", inner.get("internal")), state),
             content.actions(inner.get("actions")), line=value.line,
         )  # fmt: skip
+        if not targets and "actions" not in inner:
+            content.idle.append(f"{state.id} {descriptor or 'always'} (line {value.line})")
+        return made
 
     def _inside(self, target: JsonValue | None, said: JsonValue | None, state: MachineState) -> bool:
         """Whether its source is not left where all targets are in it."""
