@@ -242,6 +242,7 @@ SHOWN = {
 """Listings that are no command, no file and no program, by page and first line, and why."""
 
 PROGRAMS = {
+    ("docs/simulink.md", 'State("Paused", transitions=[to("Cooking", "[~door]")])'): "python",
     ("docs/simulink.md", "from rovercheck import always, implies, simulink_model"): "imports",
     ("docs/adapters.md", "class Supervisor:"): "python",
     ("docs/adapters.md", "import json, sys"): "python",

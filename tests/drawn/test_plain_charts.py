@@ -138,6 +138,8 @@ def same(one: Expr, other: Expr, *over: Var) -> bool:
         (ite(on, 1, 0) > 0, "on"),
         (ite(on, 0, 1) == 0, "on"),
         (ite(on, const(False), x > 3), "!on && x > 3"),
+        (ite(on, x > 3, on), "on && x > 3"),
+        (ite(on, on, x > 3), "on || x > 3"),
         (~(x == 3), "x != 3"),
         (ite(bit(x, 2), 4, 0) + 0 != 0, "bit(x, 2)"),
         (x * Const(1, Num()) + 0, "x*1"),

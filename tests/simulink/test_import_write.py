@@ -65,7 +65,7 @@ def test_labels_are_the_engineers_own_where_they_say_the_same() -> None:
     text = files(MICROWAVE).files["microwave.py"]
     assert 'to("Junction7", "[start && ~door]")' in text
     assert 'to("Rest", "[after(0.5, sec)]")' in text
-    assert "# [minutes > 0]{left = uint16(minutes) * 7; bell = false;}" in text
+    assert "        # du: left = left - 1\n" in text
     assert 'to("Cooking", "[minutes > 0] {left = minutes*7; bell = false}")' in text
 
 
@@ -210,6 +210,23 @@ def test_calls_are_laid_out_as_formatters_do() -> None:
 @pytest.mark.parametrize(("text", "shown"), [("a", '"a"'), ('a"b', "'a\"b'"), ("a'b", '"a\'b"')])
 def test_a_text_stands_in_quotes(text: str, shown: str) -> None:
     assert quoted(text) == shown
+
+
+def test_names_that_python_takes_for_one_are_apart() -> None:
+    """A ligature is read as its letters."""
+    names = SourceNames([])
+    assert [names.variable(one) for one in ("fi", "\ufb01", "a\u00b2")] == ["fi", "fi_", "a2"]
+
+
+@pytest.mark.parametrize("stem", ["test_lamp", "lamp_test", "conftest", "2 lamps", "class", "a_properties"])
+def test_a_model_of_any_name_can_be_loaded(quick: None, tmp_path: Path, stem: str) -> None:
+    """Files of pytest are no part of a model; they were written under such names."""
+    copy = tmp_path / f"{stem}.slx"
+    copy.write_bytes((SAMPLES / "1_lamp" / "lamp.slx").read_bytes())
+    assert sorted(files(copy).files) != [f"{stem}.py"]
+    folder = tmp_path / "written"
+    assert run(["import", str(copy), "--write", str(folder)]) == Exit.AS_EXPECTED
+    assert len(load(folder).properties) == 3
 
 
 def test_each_thing_has_a_name_of_its_own() -> None:

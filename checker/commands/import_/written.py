@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from keyword import iskeyword
 from pathlib import Path
 
 from rovercheck.checker.commands.import_.equality import Equality, equality_of
@@ -17,9 +18,11 @@ from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.export.source.module import SourceModule, module_of
+from rovercheck.checker.export.source.names import plain_word
 from rovercheck.checker.export.source.properties import WrittenNames, begun, rewritten
 from rovercheck.checker.model import shown
 from rovercheck.checker.model.drawn import lowered_simulink
+from rovercheck.checker.model.execute import TESTS
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.neighbours import installed
 from rovercheck.checker.model.two_readings import Readings, compared_readings
@@ -28,6 +31,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Named, Var
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import structure
+from rovercheck.spec_model.lang.wellformed import check_system
 
 SECONDS = 5.0
 """Seconds for which the written model is run beside the direct interpreter."""
@@ -74,13 +78,12 @@ def write_model(path: Path, beside: Sequence[Path], folder: Path) -> Exit:
 
 def written_model(path: Path, drawn: DrawnCharts) -> WrittenModel:
     """The files of a model.  Raises ``ModelError`` for what has no words."""
+    check_system(drawn.model.system)
     model = drawn.model.model
     release = f" of Simulink {model.release}" if model.release else ""
     system = replace(drawn.model.system, text=f"The model {model.name}, written from {path.name}.")
     module = module_of(system, drawn.labels, f"The model {model.name}{release}, written from {path.name}.")
-    name = "".join(one if one.isalnum() else "_" for one in path.stem)
-    name = f"model_{name}" if name[:1].isdigit() or not name.isidentifier() else name
-    name = f"{name}_model" if name.endswith("_properties") or name == "conftest" else name
+    name = _module_name(path.stem)
     line = f"from . import {name}" if installed(name) else f"import {name}"
     charts = {one.name: (module.charts[one.name], one) for one in drawn.model.system.charts}
     names = WrittenNames(line, module.system, dict(_signals(drawn.model, module)), charts)
@@ -90,12 +93,20 @@ def written_model(path: Path, drawn: DrawnCharts) -> WrittenModel:
     for file in copied:
         if file.is_file():
             try:
-                files[file.name] = rewritten(file.read_text(encoding="utf-8"), names)
+                own_name = file.name if own.is_dir() else f"{name}_properties.py"
+                files[own_name] = rewritten(file.read_text(encoding="utf-8"), names)
             except (ModelError, UnicodeDecodeError) as error:
                 told.append(f"{file.name} is not copied: {error}. Write it about {name}.py by hand.")
     if len(files) == 1 and charts:
         files[f"{name}_properties.py"] = begun(f"the model {model.name}", names)
     return WrittenModel(name, module, files, tuple(told))
+
+
+def _module_name(stem: str) -> str:
+    """The name of a module that a model may have: no test of pytest's."""
+    name = plain_word(stem)
+    ends = any(Path(f"{name}.py").match(one) for one in TESTS) or name.endswith("_properties")
+    return f"model_{name}_model" if ends or not name.isidentifier() or iskeyword(name) else name
 
 
 def _signals(model: LoweredModel, module: SourceModule) -> Iterator[tuple[str, str]]:

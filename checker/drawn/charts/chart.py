@@ -32,14 +32,10 @@ from rovercheck.spec_model.lang.walk import variables
 
 @dataclass
 class ChartLabels:
-    """What the engineer has written: the labels of states by path, and of transitions by their places.
-
-    ``requirements`` are the links of states.
-    """
+    """What the engineer has written: the labels of states by path, and of transitions by their places."""
 
     states: dict[Path, str] = field(default_factory=dict)
     transitions: dict[Place, str] = field(default_factory=dict)
-    requirements: dict[Path, str] = field(default_factory=dict)
 
 
 class ChartBuilder:

@@ -19,7 +19,7 @@ from rovercheck.spec_model.lang.expr import (
     const,
 )
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
-from rovercheck.spec_model.lang.walk import plain
+from rovercheck.spec_model.lang.walk import plain, structure
 
 _OPPOSITE = {Op.EQ: Op.NE, Op.NE: Op.EQ, Op.LT: Op.GE, Op.GE: Op.LT, Op.GT: Op.LE, Op.LE: Op.GT}
 
@@ -89,6 +89,10 @@ def _choice(expr: Apply) -> Expr:
     test, then, other = expr.args
     if not isinstance(expr.sort, Bool):
         return expr
+    if structure(test) == structure(other):
+        return all_of(test, then)
+    if structure(test) == structure(then):
+        return any_of(test, other)
     if isinstance(then, Const):
         return any_of(test, other) if then.value else all_of(tidied(~test), other)
     if isinstance(other, Const):

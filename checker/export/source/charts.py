@@ -78,8 +78,6 @@ class ChartSource:
         else:
             parts += self._label(label)
             comment = label.comment
-        if path in self._labels.requirements:
-            comment = (f"Requirement: {self._labels.requirements[path]}", *comment)
         if state.states:
             inner = [self._state((*path, one.name), one) for one in state.states]
             parts.append(Keyword("states", listed(inner)))

@@ -89,7 +89,8 @@ class LabelWriter:
     @staticmethod
     def _is(lines: Sequence[str], says: Callable[[str], bool]) -> bool:
         label = "\n".join(lines)
-        if '"""' in label or "\\" in label or label.endswith('"'):
+        plain = all(line.isprintable() for line in lines) and "\\" not in label
+        if not plain or '"""' in label or label.endswith('"'):
             return False
         try:
             return says(label)

@@ -4,10 +4,20 @@ import builtins
 import keyword
 import re
 from collections.abc import Collection
+from unicodedata import normalize
 
-_ODD = re.compile(r"\W+")
 _HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 _TAKEN = {*keyword.kwlist, *keyword.softkwlist, *dir(builtins)}
+
+
+def plain_word(name: str) -> str:
+    """The letters and digits of a name as Python reads them, which takes some signs for others.
+
+    >>> plain_word("probe.level (2)")
+    'probe_level_2'
+    """
+    signs = "".join(one if f"a{one}".isidentifier() else " " for one in normalize("NFKC", name))
+    return "_".join(signs.split()).strip("_")
 
 
 class SourceNames:
@@ -18,15 +28,15 @@ class SourceNames:
 
     def variable(self, name: str) -> str:
         """``probe.level`` is ``probe_level``."""
-        return self._free(_ODD.sub("_", name).strip("_") or "datum")
+        return self._free(plain_word(name) or "datum")
 
     def constant(self, name: str) -> str:
         """``LampColour`` is ``LAMP_COLOUR``."""
-        return self._free(_ODD.sub("_", _HUMP.sub("_", name)).strip("_").upper() or "DOMAIN")
+        return self._free(plain_word(_HUMP.sub("_", name)).upper() or "DOMAIN")
 
     def thing(self, name: str, kind: str = "chart") -> str:
         """``TopLevel`` is ``top_level``, as charts and systems are named; if that is taken, with its kind."""
-        plain = _ODD.sub("_", _HUMP.sub("_", name)).strip("_").lower() or kind
+        plain = plain_word(_HUMP.sub("_", name)).lower() or kind
         return self._free(plain if plain not in self._taken else f"{plain}_{kind}")
 
     def _free(self, name: str) -> str:
@@ -38,4 +48,4 @@ class SourceNames:
         return found
 
 
-__all__ = ["SourceNames"]
+__all__ = ["SourceNames", "plain_word"]
