@@ -20,7 +20,8 @@ from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound,
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
-from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, wrong_of
+from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, with_new, wrong_of
+from rovercheck.checker.diagnosis.rivals import rivals
 from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
@@ -52,21 +53,31 @@ GAIN = 4
 ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
 """Kinds of which some change makes right almost whatever is wrong."""
 
+Only = Sequence[ChartChange] | None
+
 
 def covered(
-    evidence: PartEvidence, deviations: Sequence[Deviation], seconds: float, clock: Clock = process_time
+    evidence: PartEvidence,
+    deviations: Sequence[Deviation],
+    seconds: float,
+    clock: Clock = process_time,
+    only: Only = None,
 ) -> PartCover:
-    """The changes that explain the deviations of one part, which are among ``deviations``."""
+    """The changes that explain the deviations of one part, which are among ``deviations``.
+
+    ``only``: no others are tried.
+    """
     found = PartCover(evidence, deviations)
     start = clock()
-    _CoverSearch(found, start, seconds, clock).run()
+    _CoverSearch(found, start, seconds, clock, only).run()
     found.seconds = clock() - start
     return found
 
 
 class _CoverSearch(HypothesisSearch):
-    def __init__(self, found: PartCover, start: float, seconds: float, clock: Clock) -> None:
+    def __init__(self, found: PartCover, start: float, seconds: float, clock: Clock, only: Only) -> None:
         super().__init__(found.evidence, start + seconds, clock)
+        self.only = only
         self._end = start + MORE_TIME * seconds
         self._cover = found
         self._name = found.evidence.name
@@ -164,17 +175,9 @@ class _CoverSearch(HypothesisSearch):
         """Take a change that makes something wrong, which belongs to deviations of the same outputs now."""
         before = list(self._base)
         self._accept(bridge)
-        rows = {place: dict(own) for place, own in self._rows.items()}
-        places = sorted(rows, key=lambda n: n not in self._left)
-        for run, old, new in zip(self._bench.runs, before, self._base, strict=True):
-            for row, pieces in new.items():
-                for piece in pieces - old.get(row, frozenset()):
-                    for place in places:
-                        if piece[0] in self._cover.deviations[place].scope.outputs:
-                            at = id(run), row
-                            rows[place][at] = rows[place].get(at, frozenset()) | {piece}
-                            self._left |= {place}
-                            break
+        rows, deviations = self._rows, self._cover.deviations
+        rows, more = with_new(self._bench.runs, before, self._base, rows, self._left, deviations)
+        self._left |= more
         self._rows, self._judge = rows, self._judge.of_rows(rows)
 
     @property
@@ -190,6 +193,7 @@ class _CoverSearch(HypothesisSearch):
 
     def _take(self, good: Sequence[CoveringChange]) -> None:
         """The best, and on top of it what explains something else."""
+        self._cover.rivals[good[0].change.key] = rivals(good)
         self._accept(good[0])
         while len(self._cover.changes) < MOST_CAUSES:
             rest: dict[frozenset[int], list[CoveringChange]] = {}
@@ -330,8 +334,8 @@ class _CoverSearch(HypothesisSearch):
             return False
         cases = sum(len(old) - len(new) for old, new in zip(self._base, wrong, strict=True))
         first, self._settled_before = self._first & concerned, self._settled
-        if first and first <= explains:
-            self._settled |= concerned
+        if first and first <= explains and made.kind != "single-precision":
+            self._settled |= concerned  # single precision has rivals, which are told beside it
         self._passed_by_good = max(self._passed_by_good, passed)
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
@@ -343,14 +347,6 @@ class _CoverSearch(HypothesisSearch):
             return self._judge.all_right(self._bench, self._base, cone, parameter, concerned)
         except NO_VALUE:
             return None
-
-    def _made(self, change: ChartChange) -> tuple[System | None, LogCone | None]:
-        """The charts with a change, and the part of them."""
-        try:
-            system = change.make()
-        except (ModelError, AssertionError, ValueError):
-            return None, None
-        return system, self._cone(system)
 
     def _ahead(self) -> CoveringChange | None:
         """A change that makes something wrong, and explains more than others, and all that one of these does.
