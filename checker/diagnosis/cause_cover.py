@@ -192,13 +192,14 @@ class _CoverSearch(HypothesisSearch):
         self._rows, self._judge = sound.rows, self._judge.of_rows(sound.rows)
 
     def _take(self, good: Sequence[CoveringChange]) -> None:
-        """The best, and on top of it what explains something else."""
+        """The best, and on top of it what explains something else, and all that another one may there."""
         self._cover.rivals[good[0].change.key] = rivals(good)
         self._accept(good[0])
         while len(self._cover.changes) < MOST_CAUSES:
             rest: dict[frozenset[int], list[CoveringChange]] = {}
             for one in good:
-                if own := one.explains & self._left:
+                own = one.explains & self._left
+                if own and not any(own < other.places & self._left for other in self._partly):
                     rest.setdefault(own, []).append(one)
             nearest = [one for own in sorted(rest, key=len, reverse=True) for one in rest[own][:NEAREST]]
             if not any(self._again(one) for one in nearest if self._clock() < self._end):
@@ -317,7 +318,8 @@ class _CoverSearch(HypothesisSearch):
         made = change()
         concerned = self._concerned(made)
         witnesses = [one for one in self._witnesses if one.place in concerned]
-        passed = sum(self._passed(cone, one, parameter) for one in witnesses)
+        places = [one.place for one in witnesses if self._passed(cone, one, parameter)]
+        passed = len(places)
         if not passed:
             return False
         wrong = self._right(cone, parameter, concerned)
@@ -328,7 +330,7 @@ class _CoverSearch(HypothesisSearch):
         explains = frozenset[int]() if wrong is None else self._judge.explained(concerned, self._bench, wrong)
         if wrong is None or not explains:
             if made.kind not in ANYWHERE:
-                self._partly.append(Unexplaining(made, self._bench, passed))
+                self._partly.append(Unexplaining(made, self._bench, passed, frozenset(places)))
             return False
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False

@@ -43,6 +43,8 @@ class Unexplaining:
     bench: TrialBench
     passed: int
     """How many witnesses."""
+    places: frozenset[int]
+    """Of which deviations."""
 
     @property
     def rank(self) -> tuple[float, ...]:

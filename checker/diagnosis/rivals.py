@@ -24,7 +24,8 @@ def rivals(good: Sequence[CoveringChange]) -> tuple[ChartChange, ...]:
 
 def _place(change: ChartChange) -> tuple[str, ...]:
     """A place, and what is read otherwise in it."""
-    return (change.chart, change.at, change.new if change.kind == "interpretation" else change.old)
+    at = change.at.removesuffix("/compared")  # of ages, also where they are compared alone
+    return (change.chart, at, change.new if change.kind == "interpretation" else change.old)
 
 
 __all__ = ["rivals"]
