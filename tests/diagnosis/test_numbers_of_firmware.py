@@ -24,7 +24,7 @@ from rovercheck.spec_model.lang.domain import fixed
 from rovercheck.spec_model.lang.expr import const, var
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import in_order
-from tests.diagnosis.planted import Row, diagnosis, inputs, recorded_on
+from tests.diagnosis.planted import Held, Row, diagnosis, inputs, recorded_on
 
 
 def truncated(number: Fraction) -> int:
@@ -104,7 +104,7 @@ def test_single_precision_comes_before_a_limit_and_names_it() -> None:
     every = age_changes(BATTERY, BATTERY.system, frozenset({"Monitor_battery"}))
     [planted] = [c for c in every if c.new == "added up in single precision" and c.at == "signal/batt_age"]
     made = with_changes(BATTERY, [planted.key])
-    falls = [
+    falls: list[Held] = [
         [(10, {"battery_pct": 15 + 0.42 * fall}), (50 * fall + 3, {"batt_last_valid_ms": 200})]
         for fall in FALLS
     ]
