@@ -15,7 +15,7 @@ from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import ChartChange, Nearness
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, Nearness
 from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness, ranked
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
@@ -53,31 +53,31 @@ GAIN = 4
 ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
 """Kinds of which some change makes right almost whatever is wrong."""
 
-Only = Sequence[ChartChange] | None
-
 
 def covered(
     evidence: PartEvidence,
     deviations: Sequence[Deviation],
     seconds: float,
     clock: Clock = process_time,
-    only: Only = None,
+    only: Sequence[ChartChange] | None = None,
+    without: Collection[ChangeKind] = (),
 ) -> PartCover:
     """The changes that explain the deviations of one part, which are among ``deviations``.
 
-    ``only``: no others are tried.
+    ``only``: no others are tried; ``without``: none of these kinds.
     """
     found = PartCover(evidence, deviations)
     start = clock()
-    _CoverSearch(found, start, seconds, clock, only).run()
+    search = _CoverSearch(found, start, seconds, clock)
+    search.only, search.without = only, without
+    search.run()
     found.seconds = clock() - start
     return found
 
 
 class _CoverSearch(HypothesisSearch):
-    def __init__(self, found: PartCover, start: float, seconds: float, clock: Clock, only: Only) -> None:
+    def __init__(self, found: PartCover, start: float, seconds: float, clock: Clock) -> None:
         super().__init__(found.evidence, start + seconds, clock)
-        self.only = only
         self._end = start + MORE_TIME * seconds
         self._cover = found
         self._name = found.evidence.name

@@ -7,11 +7,15 @@ from hashlib import sha256
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.attribution import AttributedChange, attributed
 from rovercheck.checker.diagnosis.cause_cover import covered
-from rovercheck.checker.diagnosis.change import ChartChange, only_told
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, only_told
 from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.one_change import likeness
 from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
+from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
+from rovercheck.spec_model.lang.errors import ModelError
+
+REPAIRS: tuple[ChangeKind, ...] = ("repair",)
 
 
 @dataclass(frozen=True)
@@ -127,7 +131,13 @@ def searched_part(
     only: Sequence[ChartChange] | None = None,
 ) -> SearchedPart:
     """The causes of what is at some places among all deviations; ``only``: no other changes are tried."""
-    cover = covered(part, [every[n] for n in places], seconds, only=only)
+    own = [every[n] for n in places]
+    cover = covered(part, own, seconds, only=only)
+    if only is None and _corrects_a_repair(cover):
+        other = covered(part, own, max(seconds - cover.seconds, seconds / 2), without=REPAIRS)
+        other.seconds += cover.seconds
+        if other.left <= cover.left and len(other.changes) <= len(cover.changes):
+            cover = other
     late = CutSearch(part.name, cover.tried, cover.of, cover.seconds) if cover.late else None
     explained = frozenset[int]().union(*(own for _, own in cover.changes))
     return SearchedPart(
@@ -138,6 +148,19 @@ def searched_part(
         late,
         part.cases,
     )
+
+
+def _corrects_a_repair(cover: PartCover) -> bool:
+    """Whether a change is made in what a repair has put there: two differences may look like these."""
+    if not any(change.kind == "repair" for change, _ in cover.changes):
+        return False
+    board, system = cover.evidence.group.board, cover.evidence.group.system
+    for change, _ in cover.changes:
+        try:
+            found_change(board, system, WrittenChange(*change.key))
+        except ModelError:
+            return True
+    return False
 
 
 def _told(one: DeviationCause) -> DeviationCause:

@@ -12,7 +12,7 @@ from time import process_time
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import TIERS, ChartChange, Nearness
+from rovercheck.checker.diagnosis.change import TIERS, ChangeKind, ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
     age_changes,
@@ -106,6 +106,8 @@ class HypothesisSearch(ABC):
         self._known |= {v.name for v in other_ages(evidence.group.board)}
         self.only: Sequence[ChartChange] | None = None
         """Changes instead of all those that there are; each is made anew where it is tried."""
+        self.without: Collection[ChangeKind] = ()
+        """Kinds of changes that are left out."""
         self.tried = self.of = 0
         self.late = False
         """Whether the time was over before all was tried."""
@@ -172,7 +174,7 @@ class HypothesisSearch(ABC):
             if self.ended:
                 return
             self.tried += 1
-            if self.concerns(change):
+            if change.kind not in self.without and self.concerns(change):
                 self._try(change)
 
     def _each_again(self, system: System, changes: Iterable[ChartChange]) -> None:
