@@ -22,7 +22,6 @@ def test_a_repair_that_is_corrected_gives_way_to_changes_of_the_charts_as_drawn(
     held: list[Held] = [
         [(3, degraded), (3, {"degr_mask_b2": 0})],
         [(3, {}), (5, degraded), (5, critical)],
-        [(3, critical), (3, {"crit_mask_b2": 0})],
         [(3, {"degr_mask_b2": 1, "crit_mask_b2": 1}), (3, critical)],
         [(4, degraded), (2, critical), (2, degraded), (2, critical), (4, {"crit_mask_b2": 0})],
     ]
