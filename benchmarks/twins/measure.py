@@ -162,6 +162,8 @@ class LoggedDifferences:
     """Of each log the differences that it shows alone, beside the firmware without any."""
     shown: Mapping[str, Mapping[str, frozenset[str]]]
     """Of each log and difference the outputs in which it shows, alone or beside all others."""
+    masked: frozenset[str]
+    """Those of the exposed ones that the others hide: the logs would be the same without them."""
 
 
 def recorded(firmware: Firmware, folder: Path, number: int) -> LoggedDifferences:
@@ -194,12 +196,16 @@ def recorded(firmware: Firmware, folder: Path, number: int) -> LoggedDifferences
         )
         for log in every
     }
+    beside = set[str]()
     for one in firmware.differences:
         with running(firmware, [other for other in firmware.differences if other is not one]) as without:
             for log in every:
                 given = outputs(without, log.inputs)
-                shown[log.name][one.id] |= _logged(with_all[log.name], given, left[log.name])
-    return LoggedDifferences(place, exposed, shown)
+                found = _logged(with_all[log.name], given, left[log.name])
+                shown[log.name][one.id] |= found
+                if found:
+                    beside.add(one.id)
+    return LoggedDifferences(place, exposed, shown, frozenset().union(*exposed.values()) - beside)
 
 
 def _logged(
@@ -216,8 +222,12 @@ def folder_of_logs(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iter
     """What ``check-log`` and ``diagnose`` say of the logs of a twin."""
     began = monotonic()
     made = recorded(firmware, folder, effort.logs)
-    exposed = frozenset().union(*made.exposed.values())
-    yield f"logs: {len(made.exposed)} written, {len(exposed)} differences show ({monotonic() - began:.0f} s)"
+    exposed = frozenset().union(*made.exposed.values()) - made.masked
+    yield (
+        f"logs: {len(made.exposed)} written, {len(exposed)} differences show, {len(made.masked)} more only "
+        f"without the others ({monotonic() - began:.0f} s)"
+    )
+    yield from (f"  MASKED {d.id}: {d.says}" for d in firmware.differences if d.id in made.masked)
     yield from _checked(firmware, made)
     yield from _caused(firmware, made, exposed, effort)
     yield from _diagnosed(firmware, made, exposed, effort)

@@ -15,12 +15,13 @@ from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import ChartChange, Nearness
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, Nearness
 from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness, ranked
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
-from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, wrong_of
+from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, with_new, wrong_of
+from rovercheck.checker.diagnosis.rivals import rivals
 from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
@@ -54,12 +55,22 @@ ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
 
 
 def covered(
-    evidence: PartEvidence, deviations: Sequence[Deviation], seconds: float, clock: Clock = process_time
+    evidence: PartEvidence,
+    deviations: Sequence[Deviation],
+    seconds: float,
+    clock: Clock = process_time,
+    only: Sequence[ChartChange] | None = None,
+    without: Collection[ChangeKind] = (),
 ) -> PartCover:
-    """The changes that explain the deviations of one part, which are among ``deviations``."""
+    """The changes that explain the deviations of one part, which are among ``deviations``.
+
+    ``only``: no others are tried; ``without``: none of these kinds.
+    """
     found = PartCover(evidence, deviations)
     start = clock()
-    _CoverSearch(found, start, seconds, clock).run()
+    search = _CoverSearch(found, start, seconds, clock)
+    search.only, search.without = only, without
+    search.run()
     found.seconds = clock() - start
     return found
 
@@ -164,17 +175,9 @@ class _CoverSearch(HypothesisSearch):
         """Take a change that makes something wrong, which belongs to deviations of the same outputs now."""
         before = list(self._base)
         self._accept(bridge)
-        rows = {place: dict(own) for place, own in self._rows.items()}
-        places = sorted(rows, key=lambda n: n not in self._left)
-        for run, old, new in zip(self._bench.runs, before, self._base, strict=True):
-            for row, pieces in new.items():
-                for piece in pieces - old.get(row, frozenset()):
-                    for place in places:
-                        if piece[0] in self._cover.deviations[place].scope.outputs:
-                            at = id(run), row
-                            rows[place][at] = rows[place].get(at, frozenset()) | {piece}
-                            self._left |= {place}
-                            break
+        rows, deviations = self._rows, self._cover.deviations
+        rows, more = with_new(self._bench.runs, before, self._base, rows, self._left, deviations)
+        self._left |= more
         self._rows, self._judge = rows, self._judge.of_rows(rows)
 
     @property
@@ -189,12 +192,14 @@ class _CoverSearch(HypothesisSearch):
         self._rows, self._judge = sound.rows, self._judge.of_rows(sound.rows)
 
     def _take(self, good: Sequence[CoveringChange]) -> None:
-        """The best, and on top of it what explains something else."""
+        """The best, and on top of it what explains something else, and all that another one may there."""
+        self._cover.rivals[good[0].change.key] = rivals(good)
         self._accept(good[0])
         while len(self._cover.changes) < MOST_CAUSES:
             rest: dict[frozenset[int], list[CoveringChange]] = {}
             for one in good:
-                if own := one.explains & self._left:
+                own = one.explains & self._left
+                if own and not any(own < other.places & self._left for other in self._partly):
                     rest.setdefault(own, []).append(one)
             nearest = [one for own in sorted(rest, key=len, reverse=True) for one in rest[own][:NEAREST]]
             if not any(self._again(one) for one in nearest if self._clock() < self._end):
@@ -313,7 +318,8 @@ class _CoverSearch(HypothesisSearch):
         made = change()
         concerned = self._concerned(made)
         witnesses = [one for one in self._witnesses if one.place in concerned]
-        passed = sum(self._passed(cone, one, parameter) for one in witnesses)
+        places = [one.place for one in witnesses if self._passed(cone, one, parameter)]
+        passed = len(places)
         if not passed:
             return False
         wrong = self._right(cone, parameter, concerned)
@@ -324,14 +330,14 @@ class _CoverSearch(HypothesisSearch):
         explains = frozenset[int]() if wrong is None else self._judge.explained(concerned, self._bench, wrong)
         if wrong is None or not explains:
             if made.kind not in ANYWHERE:
-                self._partly.append(Unexplaining(made, self._bench, passed))
+                self._partly.append(Unexplaining(made, self._bench, passed, frozenset(places)))
             return False
         if made.kind == "extra" and explains != self._left:  # of these one always explains some case
             return False
         cases = sum(len(old) - len(new) for old, new in zip(self._base, wrong, strict=True))
         first, self._settled_before = self._first & concerned, self._settled
-        if first and first <= explains:
-            self._settled |= concerned
+        if first and first <= explains and made.kind != "single-precision":
+            self._settled |= concerned  # single precision has rivals, which are told beside it
         self._passed_by_good = max(self._passed_by_good, passed)
         self._good.append(CoveringChange(made, explains, cases, wrong, system or made.make()))
         return True
@@ -343,14 +349,6 @@ class _CoverSearch(HypothesisSearch):
             return self._judge.all_right(self._bench, self._base, cone, parameter, concerned)
         except NO_VALUE:
             return None
-
-    def _made(self, change: ChartChange) -> tuple[System | None, LogCone | None]:
-        """The charts with a change, and the part of them."""
-        try:
-            system = change.make()
-        except (ModelError, AssertionError, ValueError):
-            return None, None
-        return system, self._cone(system)
 
     def _ahead(self) -> CoveringChange | None:
         """A change that makes something wrong, and explains more than others, and all that one of these does.

@@ -6,12 +6,16 @@ from functools import partial
 
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.recording import Recording
+from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector, PartEvidence
+from rovercheck.checker.diagnosis.met_elsewhere import explained_elsewhere
+from rovercheck.checker.diagnosis.one_change import likeness
 from rovercheck.checker.diagnosis.part_causes import (
     CutSearch,
     DeviationCause,
     PartChanges,
     SearchedPart,
+    by_cases,
     searched,
 )
 from rovercheck.checker.diagnosis.same_reading import read_alike
@@ -80,9 +84,16 @@ def cause_groups(
     for number, found in beside(works, at_once or cores()):
         done[number] = found
         progress(f"{said}, {len(done)} of them searched")
-    every = read_alike(evidence, [one for number in sorted(done) for one in done[number]], deviations)
+    pairs = [
+        pair
+        for number, some in enumerate(wanted.values())
+        for pair in zip(by_cases(some), done[number], strict=True)
+    ]
+    progress(f"{said}, all of them searched; comparing what was found in several")
+    every = explained_elsewhere(evidence.board, pairs, deviations, seconds, at_once or cores())
+    every = read_alike(evidence, every, deviations)
     cut = [one.cut for one in every if one.cut is not None]
-    causes = list(_together(cause for one in every for cause in one.found(deviations)))
+    causes = list(together(cause for one in every for cause in one.found(deviations)))
     told = {id(d) for one in causes for d in one.deviations}
     causes += [_alone(d) for d in deviations if id(d) not in told]
     places = {id(d): place for place, d in enumerate(deviations)}
@@ -90,8 +101,8 @@ def cause_groups(
     return CauseGroups(tuple(inorder), tuple(cut), parts=tuple(one.together(deviations) for one in every))
 
 
-def _together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
-    """One change once, with all parts and all kinds of runs that show it."""
+def together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
+    """One change once, with all parts, places and kinds of runs that show it."""
     found: dict[object, list[DeviationCause]] = {}
     for one in causes:
         found.setdefault(_same(one), []).append(one)
@@ -103,6 +114,8 @@ def _together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
         yield replace(
             every[0],
             deviations=tuple(deviations.values()),
+            other_places=_other_places(every[0], (first, *more)),
+            rivals=_in_all(every),
             alone=all(one.alone for one in every),
             runs=max(sum(one.runs for one in same) for same in parts),
             ticks=max(sum(one.ticks for one in same) for same in parts),
@@ -113,7 +126,22 @@ def _same(one: DeviationCause) -> object:
     """What two causes have in common that are one: the stamp that is taken otherwise, or the change."""
     if one.change is None:
         return id(one)
-    return one.change.key if one.change.reading is None else one.change.reading
+    return one.change.reading or likeness(one.change) or one.change.key
+
+
+def _in_all(same: Sequence[DeviationCause]) -> tuple[ChartChange, ...]:
+    """What explains as much in all parts: each may rule out what another one leaves open."""
+    keys = [{change.key for change in one.rivals} for one in same]
+    return tuple(change for change in same[0].rivals if all(change.key in own for own in keys))
+
+
+def _other_places(told: DeviationCause, same: Iterable[DeviationCause]) -> tuple[ChartChange, ...]:
+    """Where the change that is told is made, too; a stamp is taken otherwise in one place."""
+    if told.change is None or told.change.reading is not None:
+        return ()
+    changes = (c for one in same for c in (one.change, *one.other_places) if c is not None)
+    found = {change.key: change for change in changes}
+    return tuple(change for key, change in found.items() if key != told.change.key)
 
 
 def _alone(one: Deviation) -> DeviationCause:
@@ -140,5 +168,5 @@ def split(
 
 __all__ = [
     "CauseGroups", "CutSearch", "DeviationCause", "PartChanges", "by_itself", "cause_groups", "followed",
-    "split",
+    "split", "together",
 ]  # fmt: skip

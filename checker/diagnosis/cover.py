@@ -43,6 +43,8 @@ class Unexplaining:
     bench: TrialBench
     passed: int
     """How many witnesses."""
+    places: frozenset[int]
+    """Of which deviations."""
 
     @property
     def rank(self) -> tuple[float, ...]:
@@ -106,6 +108,8 @@ class PartCover:
     seconds: float = 0.0
     late: bool = False
     """Whether the time was over before all was tried."""
+    rivals: dict[tuple[str, ...], tuple[ChartChange, ...]] = field(default_factory=dict)
+    """Of a change, by its key, others of those tried that explain exactly as much."""
 
 
 def ranked(good: Sequence[CoveringChange], behind: Callable[[CoveringChange], int]) -> list[CoveringChange]:

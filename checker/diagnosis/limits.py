@@ -18,6 +18,7 @@ from rovercheck.checker.diagnosis.met_values import MetValues
 from rovercheck.checker.mutate.formulas import BESIDE
 from rovercheck.checker.mutate.places import FormulaPlace
 from rovercheck.checker.mutate.rewrites import mapped, numbers_in, same_shape
+from rovercheck.checker.mutate.saturation import counted_on
 from rovercheck.checker.mutate.wiring import kept
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.domain import Bool, Num
@@ -113,7 +114,9 @@ class NumberSlot:
 
     def _with(self, op: Op | None, number: Expr) -> System:
         part = self.part(op, number)
-        return kept(self.system, in_system(self.system, self.chart, lambda _: part))
+        changed = in_system(self.system, self.chart, lambda _: part)
+        compared = () if self.left is None else (self.left, *self.beside)
+        return kept(self.system, counted_on(changed, compared, self.old))
 
 
 def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:

@@ -5,12 +5,17 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 
 from rovercheck.checker.conformance.deviations import Deviation
-from rovercheck.checker.diagnosis.attribution import attributed
+from rovercheck.checker.diagnosis.attribution import AttributedChange, attributed
 from rovercheck.checker.diagnosis.cause_cover import covered
-from rovercheck.checker.diagnosis.change import ChartChange, only_told
+from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, only_told
 from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.one_change import likeness
 from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
+from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
+from rovercheck.spec_model.lang.errors import ModelError
+
+REPAIRS: tuple[ChangeKind, ...] = ("repair",)
 
 
 @dataclass(frozen=True)
@@ -33,6 +38,10 @@ class DeviationCause:
     runs: int = 0
     ticks: int = 0
     beside: bool = False
+    other_places: tuple[ChartChange, ...] = ()
+    """The same change where the firmware makes it, too, as a limit that two charts have in common."""
+    rivals: tuple[ChartChange, ...] = ()
+    """Other changes of those tried that explain exactly as much: nothing recorded tells them apart."""
 
     @property
     def first(self) -> Deviation:
@@ -73,13 +82,17 @@ class PartChanges:
 
 @dataclass(frozen=True)
 class SearchedPart:
-    """What was found in a part, with the deviations by their places among all: it may come from elsewhere."""
+    """What was found in a part, with the deviations by their places among all: it may come from elsewhere.
+
+    ``cases``: how often the part deviates in the recordings.
+    """
 
     part: str
     causes: tuple[tuple[DeviationCause, tuple[int, ...]], ...]
     changes: tuple[ChartChange, ...]
     explained: tuple[int, ...]
     cut: CutSearch | None
+    cases: int = 0
 
     def found(self, deviations: Sequence[Deviation]) -> list[DeviationCause]:
         """The causes, with these deviations."""
@@ -98,17 +111,33 @@ def searched(
     What is explained there is not looked at again.
     """
     found: list[SearchedPart] = []
-    for part in sorted(evidence, key=lambda one: -one.cases):
+    for part in by_cases(evidence):
         told = {n for one in found for _, own in one.causes for n in own}
         places = [n for n, d in enumerate(deviations) if d.scope.part == part.name and n not in told]
-        found.append(_searched(part, [deviations[n] for n in places], places, seconds))
+        found.append(searched_part(part, deviations, places, seconds))
     return found
 
 
-def _searched(
-    part: PartEvidence, deviations: Sequence[Deviation], places: Sequence[int], seconds: float
+def by_cases(evidence: Iterable[PartEvidence]) -> list[PartEvidence]:
+    """What there is of one part, that in which it deviates most first."""
+    return sorted(evidence, key=lambda one: -one.cases)
+
+
+def searched_part(
+    part: PartEvidence,
+    every: Sequence[Deviation],
+    places: Sequence[int],
+    seconds: float,
+    only: Sequence[ChartChange] | None = None,
 ) -> SearchedPart:
-    cover = covered(part, deviations, seconds)
+    """The causes of what is at some places among all deviations; ``only``: no other changes are tried."""
+    own = [every[n] for n in places]
+    cover = covered(part, own, seconds, only=only)
+    if only is None and _corrects_a_repair(cover):
+        other = covered(part, own, max(seconds - cover.seconds, seconds / 2), without=REPAIRS)
+        other.seconds += cover.seconds
+        if other.left <= cover.left and len(other.changes) <= len(cover.changes):
+            cover = other
     late = CutSearch(part.name, cover.tried, cover.of, cover.seconds) if cover.late else None
     explained = frozenset[int]().union(*(own for _, own in cover.changes))
     return SearchedPart(
@@ -117,18 +146,46 @@ def _searched(
         tuple(replace(change, make=only_told) for change, _ in cover.changes),
         tuple(places[n] for n in sorted(explained)),
         late,
+        part.cases,
     )
 
 
+def _corrects_a_repair(cover: PartCover) -> bool:
+    """Whether a change is made in what a repair has put there: two differences may look like these."""
+    if not any(change.kind == "repair" for change, _ in cover.changes):
+        return False
+    board, system = cover.evidence.group.board, cover.evidence.group.system
+    for change, _ in cover.changes:
+        try:
+            found_change(board, system, WrittenChange(*change.key))
+        except ModelError:
+            return True
+    return False
+
+
 def _told(one: DeviationCause) -> DeviationCause:
-    return one if one.change is None else replace(one, change=replace(one.change, make=only_told))
+    if one.change is None:
+        return one
+    others, rivals = (
+        tuple(replace(change, make=only_told) for change in some) for some in (one.other_places, one.rivals)
+    )
+    change = replace(one.change, make=only_told)
+    return replace(one, change=change, other_places=others, rivals=rivals)
 
 
 def _causes(part: PartEvidence, cover: PartCover) -> Iterable[tuple[DeviationCause, Iterable[int]]]:
     """The changes of a part, then inputs that are read otherwise, with the places of their deviations."""
+    found: dict[object, list[AttributedChange]] = {}
     for a in attributed(cover):
-        one = DeviationCause(part.name, a.change, (), not any(cover.base), beside=a.beside)
-        yield _counted(one, cover, a.places), a.places
+        found.setdefault(likeness(a.change) or a.change.key, []).append(a)
+    for same in found.values():
+        first, *others = (a.change for a in same)
+        beside = all(a.beside for a in same)
+        own = frozenset[int]().union(*(a.places for a in same if beside or not a.beside))
+        alone = not any(cover.base)
+        rivals = cover.rivals.get(first.key, ())
+        one = DeviationCause(part.name, first, (), alone, "", 0, 0, beside, tuple(others), rivals)
+        yield _counted(one, cover, own), own
     for name, places in explained_by_inputs(cover):
         told = f"{name}, which is computed from {stamps(part)[name]}"
         one = DeviationCause(part.name, None, (), False, told)
@@ -141,4 +198,6 @@ def _counted(cause: DeviationCause, cover: PartCover, places: Iterable[int]) -> 
     return replace(cause, runs=len({run for run, _ in rows}), ticks=len(rows))
 
 
-__all__ = ["CutSearch", "DeviationCause", "PartChanges", "SearchedPart", "searched"]
+__all__ = [
+    "CutSearch", "DeviationCause", "PartChanges", "SearchedPart", "by_cases", "searched", "searched_part",
+]  # fmt: skip

@@ -54,6 +54,31 @@ def wrong_of(wrong: Sequence[tuple[int, LogMismatch]]) -> Wrong:
     return {row: differing(mismatch) for row, mismatch in wrong}
 
 
+def with_new(
+    runs: Sequence[DecodedRun],
+    before: Sequence[Wrong],
+    now: Sequence[Wrong],
+    rows: Mapping[int, Pieces],
+    left: frozenset[int],
+    deviations: Sequence[Deviation],
+) -> tuple[dict[int, Pieces], frozenset[int]]:
+    """The rows of deviations with what a change makes wrong, and to which of them that belongs.
+
+    It belongs to one of the same outputs, one that is ``left`` if there is such.
+    """
+    found, more = {place: dict(own) for place, own in rows.items()}, set[int]()
+    places = sorted(found, key=lambda n: n not in left)
+    for run, old, new in zip(runs, before, now, strict=True):
+        for row, pieces in new.items():
+            for piece in pieces - old.get(row, frozenset()):
+                own = (n for n in places if piece[0] in deviations[n].scope.outputs)
+                if (place := next(own, None)) is not None:
+                    at = id(run), row
+                    found[place][at] = found[place].get(at, frozenset()) | {piece}
+                    more.add(place)
+    return found, frozenset(more)
+
+
 def differing(mismatch: LogMismatch) -> frozenset[tuple[str, int]]:
     return frozenset((d.output.name, d.bit) for one in mismatch.differences for d in one.each_bit())
 
@@ -64,4 +89,4 @@ def more_wrong(one: Sequence[Wrong], other: Sequence[Wrong]) -> int:
     return sum(len(own - there.get(row, frozenset())) for here, there in pairs for row, own in here.items())
 
 
-__all__ = ["NOT_DECIDED", "Pieces", "Wrong", "differing", "more_wrong", "rows_of", "wrong_of"]
+__all__ = ["NOT_DECIDED", "Pieces", "Wrong", "differing", "more_wrong", "rows_of", "with_new", "wrong_of"]

@@ -1,8 +1,9 @@
 """Every change of a part, tried from near to far; single ones that explain every case of it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -11,7 +12,7 @@ from time import process_time
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
-from rovercheck.checker.diagnosis.change import TIERS, ChartChange, Nearness
+from rovercheck.checker.diagnosis.change import TIERS, ChangeKind, ChartChange, Nearness
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
     age_changes,
@@ -31,6 +32,7 @@ from rovercheck.checker.diagnosis.hypotheses import (
 from rovercheck.checker.diagnosis.limits import NumberSlot, number_slots, values_of
 from rovercheck.checker.diagnosis.met_values import MetValues
 from rovercheck.checker.diagnosis.trial import NO_VALUE, Parameter, Trial, TrialBench
+from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.board import with_readings
 from rovercheck.spec_model.abstraction.signals import whole
@@ -102,6 +104,10 @@ class HypothesisSearch(ABC):
         self._outputs = len(evidence.cone.outputs)
         self._known = {PARAMETER, *(v.name for v in evidence.cone.system.inputs), *self._signals()}
         self._known |= {v.name for v in other_ages(evidence.group.board)}
+        self.only: Sequence[ChartChange] | None = None
+        """Changes instead of all those that there are; each is made anew where it is tried."""
+        self.without: Collection[ChangeKind] = ()
+        """Kinds of changes that are left out."""
         self.tried = self.of = 0
         self.late = False
         """Whether the time was over before all was tried."""
@@ -131,7 +137,10 @@ class HypothesisSearch(ABC):
         return False
 
     def level(self, system: System) -> None:
-        """Every change of a system, from near to far."""
+        """Every change of a system, from near to far, or those alone that are asked for."""
+        if self.only is not None:
+            self._each_again(system, self.only)
+            return
         only = frozenset(part.name for part in parts(system.components))
         changes = sorted(self._changes(system, only), key=self.order)
         self.of += len(changes)
@@ -147,7 +156,8 @@ class HypothesisSearch(ABC):
 
     def order(self, change: ChartChange) -> Nearness:
         """What is tried first; ways to take a stamp are few, and soon tried."""
-        return change.nearness if change.reading is None else (STAMPS, change.distance)
+        of_stamp = change.reading is not None and change.kind != "single-precision"
+        return (STAMPS, change.distance) if of_stamp else change.nearness
 
     @property
     def ended(self) -> bool:
@@ -164,8 +174,15 @@ class HypothesisSearch(ABC):
             if self.ended:
                 return
             self.tried += 1
-            if self.concerns(change):
+            if change.kind not in self.without and self.concerns(change):
                 self._try(change)
+
+    def _each_again(self, system: System, changes: Iterable[ChartChange]) -> None:
+        for change in changes:
+            with suppress(ModelError):  # of something that is no longer there
+                made = found_change(self._board, system, WrittenChange(*change.key))
+                self.of += 1
+                self._each([replace(made, tier=change.tier)])
 
     def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
         found: list[ChartChange] = []
@@ -221,12 +238,16 @@ class HypothesisSearch(ABC):
         told = self._known.issuperset(v.name for v in cone.system.inputs)
         return cone if told and len(cone.outputs) == self._outputs else None
 
-    def _try(self, change: ChartChange) -> None:
+    def _made(self, change: ChartChange) -> tuple[System | None, LogCone | None]:
+        """The charts with a change, and the part of them."""
         try:
             system = change.make()
         except (ModelError, AssertionError, ValueError):
-            return
-        cone = self._cone(system)
+            return None, None
+        return system, self._cone(system)
+
+    def _try(self, change: ChartChange) -> None:
+        system, cone = self._made(change)
         if cone is not None:
             bench = self._bench
             self._bench = bench.with_reading(change.reading)

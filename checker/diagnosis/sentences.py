@@ -1,5 +1,7 @@
 """Causes told as sentences."""
 
+from collections.abc import Iterable, Mapping, Sequence
+
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.decide import DecidingRun
 from rovercheck.checker.diagnosis.result import DiagnosedPart
@@ -11,15 +13,26 @@ WITH = ("limit", "constant", "timer", "repair")
 
 def behaves(cause: ExplainingCause) -> str:
     """What the part is like, chart by chart: "Monitor_temperature behaves as with a limit of 55 °C ..."."""
+    return behaves_like(*cause.changes)
+
+
+def behaves_like(*changes: ChartChange) -> str:
+    """What charts are like by changes; those that are like the same in one sentence."""
     charts: dict[str, list[str]] = {}
-    for change in cause.changes:
+    for change in changes:
         charts.setdefault(change.chart, []).append(like(change))
-    return "; ".join(f"{chart} behaves {' and '.join(told)}" for chart, told in charts.items())
+    return "; ".join(_behave(names, told) for told, names in _alike(charts).items())
 
 
-def behaves_like(change: ChartChange) -> str:
-    """What a part is like by one change."""
-    return f"{change.chart} behaves {like(change)}"
+def _alike(charts: Mapping[str, Iterable[str]]) -> Mapping[tuple[str, ...], list[str]]:
+    found: dict[tuple[str, ...], list[str]] = {}
+    for chart, told in charts.items():
+        found.setdefault(tuple(told), []).append(chart)
+    return found
+
+
+def _behave(names: Sequence[str], told: Iterable[str]) -> str:
+    return f"{' and '.join(names)} {'behave' if len(names) > 1 else 'behaves'} {' and '.join(told)}"
 
 
 def like(change: ChartChange) -> str:

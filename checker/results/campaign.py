@@ -111,6 +111,8 @@ class CampaignFinding:
     """The change of the charts that explains it, in words, where one was looked for and found."""
     change: tuple[str, ...] = ()
     """That change as a variant holds it: of what kind, in which chart, where, from what, to what."""
+    other_places: tuple[tuple[str, ...], ...] = ()
+    """The same change in other places."""
     places: tuple[Place, ...] = ()
     """Where to look for it, the best first: lines that assign the output, a map, or the recording."""
     key: str = ""

@@ -16,8 +16,8 @@ from rovercheck.checker.conformance.program import Known
 from rovercheck.checker.diagnosis import trial
 from rovercheck.checker.diagnosis.cause_cover import _CoverSearch
 from rovercheck.checker.diagnosis.change import ChartChange
-from rovercheck.checker.diagnosis.cover import CoveringChange, Unexplaining
-from rovercheck.checker.diagnosis.evidence import EvidenceCollector
+from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Unexplaining
+from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
     beginning_changes,
     during_changes,
@@ -241,7 +241,10 @@ def test_what_explains_more_than_a_chance_cause_goes_before_it(monkeypatch: pyte
         return CoveringChange(changes[name], frozenset(explains[name]), gain, [], boards()["board1"].system)
 
     def partly(*passed: tuple[str, int]) -> list[Unexplaining]:
-        return [Unexplaining(changes[name], cast(TrialBench, None), number) for name, number in passed]
+        return [
+            Unexplaining(changes[name], cast(TrialBench, None), number, frozenset())
+            for name, number in passed
+        ]
 
     bridges = {id(changes[name]): made(name, gain) for name, gain in (("b", 5), ("c", 9), ("d", 7))}
     monkeypatch.setattr(search, "_bridge", lambda one: bridges[id(one.change)], raising=False)
@@ -255,6 +258,35 @@ def test_what_explains_more_than_a_chance_cause_goes_before_it(monkeypatch: pyte
     assert search._ahead() is None
     search._good = []
     assert search._ahead() is None
+
+
+@pytest.mark.parametrize(("passed", "taken"), [({2, 3}, "a"), ({2}, "ab"), ({3, 4}, "ab")])
+def test_what_one_change_may_explain_is_not_taken_in_pieces(
+    passed: set[int], taken: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A chart that tests its transitions in the step of entry was told as a repair and one transition."""
+    every = mutant_changes(boards()["board1"].system, frozenset({"Motion_Supervision"}))
+    changes = dict(zip("abc", islice(every, 3), strict=True))
+    search = object.__new__(_CoverSearch)
+    found: list[str] = []
+
+    def made(name: str, *explains: int) -> CoveringChange:
+        return CoveringChange(changes[name], frozenset(explains), 0, [], boards()["board1"].system)
+
+    def accept(one: CoveringChange) -> bool:
+        found.append(next(name for name, change in changes.items() if change is one.change))
+        search._left -= one.explains
+        search._cover.changes.append((one.change, one.explains))
+        return True
+
+    monkeypatch.setattr(search, "_accept", accept, raising=False)
+    monkeypatch.setattr(search, "_again", accept, raising=False)
+    monkeypatch.setattr(search, "_clock", lambda: 0.0, raising=False)
+    search._cover, search._left = PartCover(cast(PartEvidence, None), []), frozenset({1, 2, 3, 4})
+    search._end = 1.0
+    search._partly = [Unexplaining(changes["c"], cast(TrialBench, None), 2, frozenset(passed))]
+    search._take([made("a", 1), made("b", 2)])
+    assert "".join(found) == taken
 
 
 def test_numbers_without_meaning_end_no_search(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,6 +8,8 @@ from struct import pack, unpack
 
 import pytest
 
+from rovercheck.checker.commands.shared.cause_text import untold
+from rovercheck.checker.diagnosis.causes import cause_groups, followed
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.evidence import EvidenceCollector, PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import age_changes, mutant_changes, rewrite_changes
@@ -22,7 +24,7 @@ from rovercheck.spec_model.lang.domain import fixed
 from rovercheck.spec_model.lang.expr import const, var
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import in_order
-from tests.diagnosis.planted import Row, diagnosis, inputs, recorded_on
+from tests.diagnosis.planted import Held, Row, diagnosis, inputs, recorded_on
 
 
 def truncated(number: Fraction) -> int:
@@ -95,6 +97,30 @@ def test_a_time_that_is_added_up_in_single_precision(how: str) -> None:
     assert planted.key in [c.key for c in every if explains(c)]
     closed = [c for c in mutant_changes(part.group.system) if "<=" in c.text and "assumed_b" in c.text]
     assert closed and not any(map(explains, closed)), "after some of these times the sum is on the other side"
+
+
+def test_single_precision_comes_before_a_limit_and_names_it() -> None:
+    """Of one log that shows both a limit that is closed was told, and the sum was not even tried."""
+    every = age_changes(BATTERY, BATTERY.system, frozenset({"Monitor_battery"}))
+    [planted] = [c for c in every if c.new == "added up in single precision" and c.at == "signal/batt_age"]
+    made = with_changes(BATTERY, [planted.key])
+    falls: list[Held] = [
+        [(10, {"battery_pct": 15 + 0.42 * fall}), (50 * fall + 3, {"batt_last_valid_ms": 200})]
+        for fall in FALLS
+    ]
+    runs = [recorded_on(made, inputs("board1", held), f"{n}") for n, held in enumerate(falls)]
+    collector = EvidenceCollector(BATTERY)
+    for run in runs:
+        collector.add(run)
+    evidence = collector.evidence()
+    name = next(name for name, behaviour in evidence.behaviours.items() if behaviour.deviations)
+    one = next(run for run in runs if run.name == name)
+    found = [d for d in evidence.behaviours[name].deviations if d.scope.part == "Monitor_battery"]
+    groups = cause_groups(followed(BATTERY, [one]), found, ["Monitor_battery"], 10, at_once=1)
+    [cause] = groups.causes
+    assert cause.change is not None and cause.change.kind == "single-precision"
+    assert cause.rivals and all(rival.kind != "single-precision" for rival in cause.rivals)
+    assert "nothing in these logs tells it apart" in untold(cause, "logs")
 
 
 def test_the_sum_is_that_of_c() -> None:

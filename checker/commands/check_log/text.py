@@ -7,7 +7,7 @@ from textwrap import fill, shorten
 
 from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.causes import LOGS, not_searched
-from rovercheck.checker.commands.shared.cause_text import also, says
+from rovercheck.checker.commands.shared.cause_text import also, says, untold
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.known import known_lines, mark
 from rovercheck.checker.commands.shared.output import counted, text_width
@@ -273,6 +273,8 @@ def _over_all(campaign: LogCampaign | None) -> Iterator[str]:
                 yield _lines("", move, hang=8)
             if told := says(cause):
                 yield _lines("", f"cause: {told}.", hang=6)
+            if told := untold(cause, LOGS[1]):
+                yield _lines("", f"or: {told}.", hang=6)
             for other in cause.deviations[1:]:
                 yield _lines("", f"also: {also(other, cause, LOGS)}", hang=8)
         yield from (_lines("", line, indent=0, hang=0) for line in not_searched(groups))

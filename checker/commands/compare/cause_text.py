@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from rovercheck.checker.commands.shared.cause_text import also, cut_short, says
+from rovercheck.checker.commands.shared.cause_text import also, cut_short, says, untold
 from rovercheck.checker.commands.shared.output import counted, text_width
 from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.checker.compare.result import CompareResult
@@ -25,6 +25,8 @@ def cause_lines(one: DeviationCause, result: CompareResult, indent: str) -> Iter
     """What explains a finding, and in which other ways it shows."""
     if told := says(one):
         yield wrapped(f"cause: {told}.", indent)
+    if told := untold(one, RUNS[1]):
+        yield wrapped(f"or: {told}.", indent)
     if len(one.deviations) > 1:
         others = counted(len(one.deviations) - 1, "other way", "other ways")
         yield wrapped(f"it shows in {others}, in all in {in_all(one, result)}:", indent)

@@ -100,6 +100,10 @@ class CauseGroup(TypedDict):
     """What explains them, in words: a change of the charts, or other values of an input that is computed
     from stamps; empty where nothing does."""
     change: ChangeRow | None
+    other_places: list[ChangeRow]
+    """The same change in other places, as a limit that two charts have in common."""
+    rivals: list[ChangeRow]
+    """Other changes that explain exactly as much, up to two of those that were tried."""
     complete: bool
     """Whether the changes found in the part explain all that it does otherwise."""
     runs: Ordinal
@@ -232,6 +236,8 @@ def _cause(cause: DeviationCause, of: CrosscheckReport) -> CauseGroup:
         "part": cause.part,
         "says": says(cause),
         "change": None if change is None else change_row(change),
+        "other_places": [change_row(one) for one in cause.other_places],
+        "rivals": [change_row(one) for one in cause.rivals],
         "complete": cause.alone,
         "runs": cause.runs,
         "ticks": cause.ticks,

@@ -9,7 +9,7 @@ from rovercheck.checker.commands.compare.cause_text import RUNS, in_all, searche
 from rovercheck.checker.commands.compare.places import ImplementationPlaces
 from rovercheck.checker.commands.compare.text import CrosscheckReport, failure_cause, untried
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
-from rovercheck.checker.commands.shared.cause_text import also, says
+from rovercheck.checker.commands.shared.cause_text import also, says, untold
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.compare.beside import differences
@@ -124,8 +124,9 @@ class BoardRecord:
             group = [met[one.scope] for one in cause.deviations]
             outputs = list(dict.fromkeys(name for one in group for name in one.outputs))
             change = cause.change.key if cause.change else ()
+            others = tuple(one.key for one in cause.other_places)
             found = replace(self._finding(cause, group), cause=says(cause), change=change)
-            yield replace(found, places=places.of(outputs))
+            yield replace(found, other_places=others, places=places.of(outputs))
         for failure in self._failures:
             yield replace(self._failed(failure), places=places.of(()))
 
@@ -136,6 +137,7 @@ class BoardRecord:
         groups = [(self._named(r), r.groups) for r in result.notable]
         met = sightings(group, groups, self._every, tick_ms)
         more = [("in all", in_all(cause, result))]
+        more += [("or", told)] if (told := untold(cause, RUNS[1])) else []
         more += [("also", also(one, cause, RUNS)) for one in group[1:]]
         found = deviation_finding(result.board.name, group[0], self.of.judgement, OF_RUNS, met, more)
         drawn = next(

@@ -118,6 +118,8 @@ class CampaignFindingRow(TypedDict):
     """The change of the charts that explains it; empty where none was looked for or found."""
     change: FindingChangeRow | None
     """That change; null where there is none, or where an input explains it."""
+    other_places: list[FindingChangeRow]
+    """The same change in other places, as a limit that two charts have in common."""
     first: OccurrenceRow
     worst: OccurrenceRow
     sightings: list[SightingRow]
@@ -183,6 +185,7 @@ def _finding(one: CampaignFinding) -> CampaignFindingRow:
         "evidence": [{"label": label, "text": text} for label, text in one.evidence],
         "cause": one.cause,
         "change": _change(*one.change) if one.change else None,
+        "other_places": [_change(*change) for change in one.other_places],
         "first": _occurrence(one.first),
         "worst": _occurrence(one.worst),
         "sightings": [_sighting(s) for s in one.sightings],

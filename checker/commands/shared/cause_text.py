@@ -11,11 +11,19 @@ from rovercheck.checker.diagnosis.sentences import behaves_like, like
 
 def says(cause: DeviationCause) -> str:
     """What explains the deviations of a cause; empty where nothing does."""
+    if cause.change is not None and cause.other_places:
+        return behaves_like(cause.change, *cause.other_places)
     if cause.change is not None and len(cause.parts) > 1:
         return f"{' and '.join(cause.parts)} behave {like(cause.change)}"
     if cause.change is not None:
         return behaves_like(cause.change)
     return f"{cause.part} behaves as if it had other values of {cause.input}" if cause.input else ""
+
+
+def untold(cause: DeviationCause, recordings: str) -> str:
+    """What explains a cause's deviations as well; empty where nothing that was tried does."""
+    others = " or ".join(map(behaves_like, cause.rivals))
+    return f"{others}: nothing in these {recordings} tells it apart" if others else ""
 
 
 def also(other: Deviation, one: DeviationCause, recordings: tuple[str, str]) -> str:

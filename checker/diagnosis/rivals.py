@@ -1,0 +1,31 @@
+"""Other changes that explain exactly as much as the nearest one: nothing recorded tells them apart."""
+
+from collections.abc import Sequence
+
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.cover import CoveringChange
+
+MOST_RIVALS = 2
+"""Changes that are told beside the nearest one."""
+
+
+def rivals(good: Sequence[CoveringChange]) -> tuple[ChartChange, ...]:
+    """What explains exactly as much as the first of changes that are ranked, each in another place.
+
+    Another value of one limit is none: the change says between which values it lies.
+    """
+    first, *others = good
+    found = {_place(first.change): first.change}
+    for one in others:
+        if one.explains == first.explains and (one.behind, one.cases) == (first.behind, first.cases):
+            found.setdefault(_place(one.change), one.change)
+    return tuple(found.values())[1 : MOST_RIVALS + 1]
+
+
+def _place(change: ChartChange) -> tuple[str, ...]:
+    """A place, and what is read otherwise in it."""
+    at = change.at.removesuffix("/compared")  # of ages, also where they are compared alone
+    return (change.chart, at, change.new if change.kind == "interpretation" else change.old)
+
+
+__all__ = ["rivals"]
