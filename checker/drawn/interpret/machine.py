@@ -17,11 +17,11 @@ from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
 from rovercheck.checker.drawn.interpret.output_events import OutputEvents
+from rovercheck.checker.drawn.interpret.scope import chain_to, scope_of
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import MatlabValue, NumberRules, Scalar, logical
 from rovercheck.checker.drawn.parsed import (
     FunctionNode,
-    JunctionNode,
     ParsedChart,
     StateNode,
     TransitionNode,
@@ -227,7 +227,7 @@ class ChartMachine:
     def _take(self, path: Sequence[TransitionNode], source: StateNode) -> None:
         """Leave, act and enter along a path; what an early return drops is dropped."""
         self.fired += path
-        scope = self._scope(path)
+        scope = scope_of(self.chart.root, path)
         with suppress(Dropped):
             self._exit_children(scope)
             for one in path:
@@ -235,32 +235,11 @@ class ChartMachine:
                 self._runner.run(one.label.transition_actions, frame)
             target = path[-1].target
             assert target is not None, "a complete path ends at a state"
-            self._enter_children(scope, self._chain(scope, target))
-
-    def _scope(self, path: Sequence[TransitionNode]) -> StateNode:
-        """The innermost state that holds all of a path: an outer transition is drawn outside its source."""
-        holders = [list(one.holder.lineage())[::-1] for one in path]
-        scope = self.chart.root
-        for nodes in zip(*holders, strict=False):
-            if any(node is not nodes[0] for node in nodes):
-                break
-            scope = nodes[0]
-        return scope
+            self._enter_children(scope, chain_to(scope, target))
 
     def _may_go_on(self, scope: StateNode) -> bool:
         """Whether a transition may still be ended: its scope is active, and no state in it."""
         return self._is_active(scope) and not any(child in self.active for child in scope.children)
-
-    @staticmethod
-    def _chain(scope: StateNode, target: StateNode | JunctionNode) -> list[StateNode]:
-        """The states from below a scope down to a target; a history junction stands for its state."""
-        node = target.holder if isinstance(target, JunctionNode) else target
-        chain: list[StateNode] = []
-        for one in node.lineage():
-            if one is scope:
-                break
-            chain.insert(0, one)
-        return chain
 
     def _exit_children(self, node: StateNode) -> None:
         for child in [one for one in reversed(node.children) if one in self.active]:
