@@ -2,7 +2,8 @@
 
 import pytest
 
-from benchmarks.chart_rules import READINGS, ROOT, BrokenRule, rules
+from benchmarks.chart_rules import READINGS, BrokenRule, rules
+from benchmarks.edits import ROOT
 
 
 @pytest.mark.parametrize("rule", rules(), ids=lambda rule: f"{rule.reading}-{rule.name}")

@@ -287,7 +287,7 @@ class ChartMachine:
                 self._runner.run(one.label.transition_actions, frame)
             target = found[-1].target
             assert target is not None
-            self._enter_children(node, self._chain(node, target))
+            self._enter_children(node, chain_to(node, target))
 
     # --- words of the chart --------------------------------------------------------------------------------
 
