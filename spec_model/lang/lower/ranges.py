@@ -40,7 +40,7 @@ class _Known:
         self._values[id(expr)] = expr, values
 
 
-_ROOM = 2_000_000
+_ROOM = 200_000
 """Values that are known at most."""
 _KNOWN = _Known()
 
