@@ -21,6 +21,7 @@ from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.export.slx import SlxModel, simulink_of
 from rovercheck.checker.model.drawn import read_simulink
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
@@ -201,9 +202,15 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
 
 
 def _compared(result: Result, apart: str) -> str:
-    """Whether a verdict is that of the rover's charts; ``apart``: its kept run is one of another system."""
+    """Whether a verdict is that of the rover's charts; ``apart``: its kept run is one of another system.
+
+    A run that an engine did not search for a shortest one may be longer than the kept one.
+    """
     if isinstance(result.verdict, Unknown):
         return "not decided"
+    because = result.verdict.because
+    if isinstance(because, Trace) and not because.shortest:
+        apart = "not a shortest run"
     return "same" if CheckedProperty(result, expected(result.property.id), apart).as_expected else "differs"
 
 
