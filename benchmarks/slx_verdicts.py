@@ -21,6 +21,7 @@ from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.export.slx import SlxModel, simulink_of
 from rovercheck.checker.model.drawn import read_simulink
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
@@ -28,9 +29,9 @@ from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.chart import NOWHERE, Chart
-from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, any_of
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, all_of, any_of
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import System
@@ -49,7 +50,7 @@ class ReadAgain(Specialiser):
 
     def __init__(self, system: System, folder: Path) -> None:
         super().__init__({})
-        made = simulink_of(system)
+        made = simulink_of(system, "" if system.elapsed is None else "slx_")
         path = folder / f"{made.name}.slx"
         made.save(path)
         self._model = read_simulink(path)
@@ -58,11 +59,16 @@ class ReadAgain(Specialiser):
         given = {name: _as(known[name], self._model[own]) for name, own in made.inputs.items()}
         self._inside |= {name: expr for name, expr in given.items() if name in system.inputs}
         self._active = dict(self._places(system, made))
+        given = {name: _declared(expr, self._model[made.inputs[name]]) for name, expr in given.items()}
+        assumed = _Given(given, self).expr(system.assumed)
+        if system.elapsed is not None:  # it has a unit, which nothing has in a file
+            self._inside[system.elapsed.name] = system.elapsed
+            assumed = all_of(assumed, Apply(Op.EQ, (system.elapsed, given[system.elapsed.name]), Bool()))
         self.read = replace(
             self._model.system, name=system.name, place=system.place, step_ms=system.step_ms,
-            tick_ms=system.tick_ms, assume=_Given(given, self).expr(system.assumed), under=system.under,
+            tick_ms=system.tick_ms, assume=assumed, under=system.under,
             frozen=tuple(one for v in system.frozen if isinstance(one := given[v.name], Var)),
-            elapsed=None if system.elapsed is None else _var(given[system.elapsed.name]),
+            elapsed=system.elapsed,
         )  # fmt: skip
 
     def property(self, one: Property) -> Property:
@@ -114,9 +120,9 @@ class _Given(Specialiser):
         return super()._expr(expr)
 
 
-def _var(expr: Expr) -> Var:
-    assert isinstance(expr, Var)
-    return expr
+def _declared(expr: Expr, own: Expr) -> Expr:
+    """A variable of the file as the file has it, whatever it begins with in the rover."""
+    return own if isinstance(expr, Var) else expr
 
 
 def _as(var: Var, expr: Expr) -> Expr:
@@ -196,9 +202,15 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
 
 
 def _compared(result: Result, apart: str) -> str:
-    """Whether a verdict is that of the rover's charts; ``apart``: its kept run is one of another system."""
+    """Whether a verdict is that of the rover's charts; ``apart``: its kept run is one of another system.
+
+    A run that an engine did not search for a shortest one may be longer than the kept one.
+    """
     if isinstance(result.verdict, Unknown):
         return "not decided"
+    because = result.verdict.because
+    if isinstance(because, Trace) and not because.shortest:
+        apart = "not a shortest run"
     return "same" if CheckedProperty(result, expected(result.property.id), apart).as_expected else "differs"
 
 
