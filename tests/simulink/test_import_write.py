@@ -13,6 +13,7 @@ from rovercheck.checker.commands.import_ import written as verb
 from rovercheck.checker.commands.import_.equality import Equality, equality_of
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.drawn.charts.system import DrawnCharts, charts_of_model
+from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.export.source.layout import Commented, Lines, call, laid_out, listed, quoted
 from rovercheck.checker.export.source.names import SourceNames
 from rovercheck.checker.export.source.properties import WrittenNames, rewritten
@@ -20,6 +21,8 @@ from rovercheck.checker.model.drawn import read_simulink
 from rovercheck.checker.model.load import load
 from rovercheck.spec_model.lang.chart import Chart, State
 from rovercheck.spec_model.lang.errors import ModelError
+from tests.drawn.test_simulink_functions import counting
+from tests.drawn.test_simulink_functions import written as simulink_function
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "examples" / "simulink"
@@ -103,6 +106,13 @@ def test_a_model_without_words_leaves_nothing(tmp_path: Path, capsys: pytest.Cap
     assert "Press is entered before the first step" in told
     assert "keep the .slx as the model" in told
     assert not (tmp_path / "new" / "press").exists()
+
+
+def test_a_chart_with_simulink_functions_has_no_words(tmp_path: Path) -> None:
+    """What was written had nothing in their place, and was told as an error of rovercheck."""
+    path = simulink_function("A\nen, du: r = f(u);", {"y = f(a)": counting}).save(tmp_path / "one.slx")
+    with pytest.raises(NotLowered, match=r"C has the Simulink function f \(SSID 5\): write it as a MATLAB"):
+        files(path)
 
 
 def test_a_folder_with_something_in_it_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

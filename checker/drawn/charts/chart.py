@@ -69,6 +69,13 @@ class ChartBuilder:
         if any(one.scope == "output" for one in root.events.values()):
             raise NotLowered(f"{drawn.path} has an event to other blocks: write to a datum")
         refuse_other_scopes(self.drawn)
+        functions = (one for node in root.every() for one in node.functions.values())
+        for one in functions:
+            if one.drawn.function == "Simulink":
+                raise NotLowered(
+                    f"{drawn.path} has the Simulink function {one.signature.name} (SSID {one.drawn.ssid}): "
+                    "write it as a MATLAB function"
+                )
         for node in root.every():
             refuse_dead_ends(node.outer)
             refuse_dead_ends(node.defaults)

@@ -3,15 +3,15 @@
 The rules are those of the user's guide of Stateflow, in the order in which it gives them.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from typing import Literal
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.labels import SectionKind
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage, Applied, Expression, Member, Name
 from rovercheck.checker.drawn.interpret.activity import activity
+from rovercheck.checker.drawn.interpret.chart_functions import END, ChartFunctions, Found
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
@@ -21,7 +21,6 @@ from rovercheck.checker.drawn.interpret.scope import chain_to, scope_of
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.values import MatlabValue, NumberRules, Scalar, logical
 from rovercheck.checker.drawn.parsed import (
-    FunctionNode,
     ParsedChart,
     StateNode,
     TransitionNode,
@@ -32,12 +31,8 @@ MOST_SEGMENTS = 100_000
 MOST_NESTED = 50
 """Events that are sent while others are answered."""
 
-END: Literal["end"] = "end"
-Found = list[TransitionNode] | Literal["end"] | None
-"""A complete path; the end of the search at a junction without a way on; nothing."""
 
-
-class ChartMachine:
+class ChartMachine(ChartFunctions):
     """One chart with its memory.  ``named`` are values of parameters, as written, by their names.
 
     Raises ``DrawnFault`` for what has no value.
@@ -51,7 +46,7 @@ class ChartMachine:
         self.memory = ChartMemory(types, self.rules)
         self.clock = ChartClock(chart, step)
         self._runner = StatementRunner(self.memory, self)
-        self._persistent: dict[int, dict[str, MatlabValue]] = {}
+        self._persistent = {}
         self.active: set[StateNode] = set()
         self._child: dict[StateNode, StateNode] = {}
         self._last: dict[StateNode, StateNode] = {}
@@ -61,8 +56,7 @@ class ChartMachine:
         self.begun = False
         self._activities = [d for d in chart.root.data.values() if d.activity_of is not None]
         self.output_events = OutputEvents(chart)
-        self.executed: dict[int, Callable[[Mapping[str, MatlabValue]], Mapping[str, MatlabValue]]] = {}
-        """Of each Simulink function, by SSID, what its blocks give for some arguments."""
+        self.executed = {}
         self.fired: list[TransitionNode] = []
         """The transitions taken in this step, those of flow charts too."""
         self.memory.declare_all(chart, named or {}, self._initial)
@@ -342,54 +336,6 @@ class ChartMachine:
             self._events.pop()
             self._nested -= 1
             self._tried = tried
-
-    def call(self, function: FunctionNode, arguments: Sequence[MatlabValue], calls: int) -> list[MatlabValue]:
-        """A function of the chart: a MATLAB function, or a flow chart with its own data."""
-        if function.script:
-            script = {one.signature.name: one for one in function.script}
-            frame = CallFrame(function.holder, self.rules, script=script, calls=calls)
-            frame.persistent = self._persistent.setdefault(function.drawn.ssid, {})
-            return self._runner.script(function.script[0], arguments, frame)
-        if function.drawn.ssid in self.executed:
-            return self._executed(function, arguments)
-        if function.flow is None:
-            raise DrawnFault(f"{function.signature.name} is a function that is not known here")
-        flow, signature = function.flow, function.signature
-        for name, one in flow.data.items():
-            self.memory.reset(one.ssid)
-            if name in signature.inputs:
-                self.memory.write(one.ssid, arguments[signature.inputs.index(name)])
-        frame = CallFrame(flow, self.rules, calls=calls)
-        self._search(flow.defaults, frame, in_function=True)
-        return [self.memory.values[flow.data[name].ssid] for name in signature.outputs]
-
-    def _executed(self, function: FunctionNode, arguments: Sequence[MatlabValue]) -> list[MatlabValue]:
-        """A Simulink function: its arguments and results are matched with its ports by name."""
-        signature, data = function.signature, function.data
-        if len(arguments) != len(signature.inputs):
-            raise DrawnFault(
-                f"{signature.name} takes {len(signature.inputs)} values, and {len(arguments)} are given"
-            )
-        for name, value in zip(signature.inputs, arguments, strict=True):
-            if name is not None:
-                self.memory.write(data[name].ssid, value)
-        given = {name: self.memory.values[one.ssid] for name, one in data.items()}
-        for name, value in self.executed[function.drawn.ssid](given).items():
-            self.memory.write(data[name].ssid, value)
-        return [self.memory.values[data[name].ssid] for name in signature.outputs]
-
-    # --- a MATLAB function as a block ----------------------------------------------------------------------
-
-    def run_block(self) -> None:
-        """Execute the function of a block: its values are matched with the data by name."""
-        [function] = self.chart.root.functions.values()
-        signature = function.script[0].signature if function.script else function.signature
-        data = self.chart.root.data
-        names = (name for name in signature.inputs if name is not None)
-        given = [self.memory.values[data[name].ssid] for name in names if name in data]
-        for name, value in zip(signature.outputs, self.call(function, given, 0), strict=False):
-            if name in data:
-                self.memory.write(data[name].ssid, value)
 
 
 __all__ = ["ChartMachine"]
