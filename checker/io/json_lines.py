@@ -9,6 +9,8 @@ from rovercheck.spec_model.lang.errors import ModelError, brief
 
 MOST_DEPTH = 200
 """Values in each other."""
+MOST_VALUES = 500_000
+"""Values of a text."""
 LONGEST_NUMBER = 30
 """Letters of a number."""
 _SPACE = re.compile(r"[ \t\r\n]*")
@@ -53,6 +55,7 @@ def parsed_json(data: bytes, place: str) -> JsonValue:
 class _Parser:
     def __init__(self, text: str, place: str) -> None:
         self.text, self.place, self.at, self.line, self.counted = text, place, 0, 1, 0
+        self.values = 0
 
     def whole(self) -> JsonValue:
         found = self._value(0)
@@ -78,6 +81,11 @@ class _Parser:
     def _value(self, depth: int) -> JsonValue:
         begin = self._space()
         made = JsonValue(self._line())
+        self.values += 1
+        if self.values > MOST_VALUES:
+            raise ModelError(
+                f"{self.place}, line {made.line}: more than {MOST_VALUES:,} values are not read."
+            )
         if depth > MOST_DEPTH:
             raise ModelError(
                 f"{self.place}, line {made.line}: more than {MOST_DEPTH} values in each other are not read."

@@ -20,7 +20,8 @@ from rovercheck.checker.scxml.xstate.bindings import RAISE, Bindings
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
 
 LOST = "was a function, which no JSON holds. Give it a name in setup() or in the options of the machine"
-MOST_NAMES = 500
+MOST_SHOWN = 30
+"""Faults in a message."""
 
 
 class XstateContent:
@@ -50,7 +51,9 @@ class XstateContent:
     def stop(self) -> None:
         """Raise ``ModelError`` if there are faults."""
         if self.faults:
-            raise ModelError("\n".join(dict.fromkeys(self.faults)))
+            found = list(dict.fromkeys(self.faults))
+            more = [f"{len(found) - MOST_SHOWN} more are not shown."] if len(found) > MOST_SHOWN else []
+            raise ModelError("\n".join([*found[:MOST_SHOWN], *more]))
 
     def notes(self) -> Iterator[str]:
         """What is read in another way than it is written, and what the export may have lost."""

@@ -256,15 +256,15 @@ class TransitionReader:
 
     def _orders(self) -> None:
         """In XState the order of `always` in two regions is that in which they were entered last."""
-        eventless = [one for state in self.states for one in state.transitions if not one.events]
-        for place, one in enumerate(eventless):
-            for other in eventless[:place]:
-                if _at_once(one, other) and _matters(one) and _matters(other):
-                    self.content.fault(
-                        _at(one.line), f"`always` of {other.source.id} and {one.source.id} may be taken at "
-                        "once, in the order in which their regions were entered. Let one of them only name "
-                        "actions without a binding, and stay in its region"
-                    )  # fmt: skip
+        found = [state for state in self.states if any(_matters(one) for one in state.transitions)]
+        for place, one in enumerate(found):
+            other = next((two for two in found[:place] if _at_once(one, two)), None)
+            if other is not None:
+                self.content.fault(
+                    _at(one.line), f"`always` of {other.id} and {one.id} may be taken at once, in the "
+                    "order in which their regions were entered. Let one of them only name actions without "
+                    "a binding, and stay in its region"
+                )  # fmt: skip
 
 
 def _begins_with_parent(target: MachineState) -> bool:
@@ -280,11 +280,8 @@ def _at(line: int) -> JsonValue:
     return JsonValue(line)
 
 
-def _at_once(one: MachineTransition, other: MachineTransition) -> bool:
-    """Whether two regions may take them: their sources are in two, or one around a parallel state."""
-    a, b = one.source, other.source
-    if a is b:
-        return False
+def _at_once(a: MachineState, b: MachineState) -> bool:
+    """Whether both may take a transition: they are in two regions, or one is around a parallel state."""
     for inner, outer in ((a, b), (b, a)):
         if inner.is_in(outer):
             between = [state for state in inner.above() if state is outer or state.is_in(outer)]
@@ -294,7 +291,9 @@ def _at_once(one: MachineTransition, other: MachineTransition) -> bool:
 
 
 def _matters(one: MachineTransition) -> bool:
-    """Whether the order in which it is taken can be seen: it changes data, raises, or leaves its region."""
+    """Whether the order of an eventless one can be seen: it changes data, raises, or leaves its region."""
+    if one.events:
+        return False
     if any(not isinstance(action, NamedAction) for action in one.actions):
         return True
     region = next((state for state in (one.source, *one.source.above()) if _is_region(state)), None)

@@ -1,11 +1,14 @@
 """What of XState 4 is read: machines in which its algorithm has a plain meaning."""
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from rovercheck.checker.io.json_lines import JsonValue
 from rovercheck.checker.scxml.records import CancelEvent, MachineState, MachineTransition, NamedAction
 from rovercheck.checker.scxml.xstate.content import XstateContent
 
+ANY = "any event"
+"""What a region answers that answers an event at all."""
 GO_ON = "Write the machine for XState 5, or another transition"
 
 
@@ -96,15 +99,22 @@ def _regions(content: XstateContent, states: Sequence[MachineState]) -> None:
     for state in states:
         if state.kind != "parallel":
             continue
-        for region in state.children:
-            for one in _inside(region):
-                if one.targets and not one.targets[0].is_in(region):
-                    others = [o for other in state.children if other is not region for o in _inside(other)]
-                    if any(_alike(one, other) for other in others):
-                        content.fault(
-                            _at(one.line), f"a transition of XState 4 that leaves {state.id} for an event "
-                            f"that another region of it answers too. {GO_ON}"
-                        )  # fmt: skip
+        inside = {region: list(_inside(region)) for region in state.children}
+        answered = {region: {_word(one) for one in found} for region, found in inside.items()}
+        regions = Counter(
+            word for words in answered.values() for word in (*words, *([ANY] if any(words) else []))
+        )
+        for region, found in inside.items():
+            for one in found:
+                if (
+                    one.targets
+                    and not one.targets[0].is_in(region)
+                    and _alike(_word(one), regions, answered[region])
+                ):
+                    content.fault(
+                        _at(one.line), f"a transition of XState 4 that leaves {state.id} for an event "
+                        f"that another region of it answers too. {GO_ON}"
+                    )  # fmt: skip
 
 
 def _inside(region: MachineState) -> Iterator[MachineTransition]:
@@ -113,10 +123,15 @@ def _inside(region: MachineState) -> Iterator[MachineTransition]:
         yield from _inside(child)
 
 
-def _alike(one: MachineTransition, other: MachineTransition) -> bool:
-    if not one.events or not other.events:
-        return one.events == other.events
-    return "*" in (*one.events, *other.events) or one.events == other.events
+def _word(one: MachineTransition) -> str:
+    """What a transition waits for; nothing for an eventless one."""
+    return one.events[0] if one.events else ""
+
+
+def _alike(word: str, regions: Mapping[str, int], own: Collection[str]) -> bool:
+    """Whether another region than one's own answers the same event."""
+    asked = [word] if not word else [word, "*", *([ANY] if word == "*" else [])]
+    return any(regions.get(one, 0) > (one in own or (one == ANY and any(own))) for one in asked)
 
 
 def _at(line: int) -> JsonValue:
