@@ -17,8 +17,9 @@ from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.spec_model.lang.domain import Num, chosen, integer
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, all_of, const, flag, ite, var
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var, all_of, const, flag, ite, var
 from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import nodes
 from rovercheck.spec_model.lang.words import bit
 from tests.drawn.random_plain_charts import random_plain_model
 from tests.export.slx_runs import written_again
@@ -117,6 +118,27 @@ def test_a_region_that_enters_its_state_again_is_refused(tmp_path: Path) -> None
         c.transition(both, other, "[u == 2]")
 
     assert "later regions are still to be executed" in refused(tmp_path, draw)
+
+
+@pytest.mark.parametrize(("guard", "named"), [("u > K", True), ("u > K && after(2*K, tick)", False)])
+def test_a_constant_keeps_its_name_unless_a_time_is_computed_with_it(
+    tmp_path: Path, guard: str, named: bool
+) -> None:
+    """Such a time was refused, as the constant under its name was none."""
+
+    def draw(c: WrittenChart) -> None:
+        c.data("K", "constant", "int8", 2)
+        a, b = c.state("A\nen: t = 1;"), c.state("B\nen: t = 2;")
+        c.transition(None, a)
+        c.transition(a, b, f"[{guard}]")
+
+    lowered = lowered_model(drawn(tmp_path, draw), "one.slx", {"u": integer(0, 3)})
+    written = written_again(lowered, tmp_path / "one.slx")
+    [chart] = written.system.charts
+    assert any(isinstance(one, Named) for one in nodes(*chart.guards)) == named
+    run = LoweredRun(written)
+    given = [run.step({"u": 3})["t"] for _ in range(6)]
+    assert given == ([1, 2, 2, 2, 2, 2] if named else [1, 1, 1, 1, 2, 2])
 
 
 # --- formulas ----------------------------------------------------------------------------------------------

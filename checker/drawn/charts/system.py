@@ -6,7 +6,7 @@ from functools import partial
 
 from rovercheck.checker.drawn.charts.chart import ChartBuilder, ChartLabels
 from rovercheck.checker.drawn.charts.substitution import actions_after
-from rovercheck.checker.drawn.charts.texts import ChartTexts
+from rovercheck.checker.drawn.charts.texts import ChartTexts, UnnamedTexts
 from rovercheck.checker.drawn.charts.tidy import tidied, tidied_actions
 from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.diagram import lowered_model
@@ -28,6 +28,7 @@ from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.parsed import ParsedChart
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.domain import Domain
 from rovercheck.spec_model.lang.expr import Const, Named, Var
 
 
@@ -47,10 +48,19 @@ def charts_of_model(lowered: LoweredModel, file: str, step: str = "") -> DrawnCh
     written = {name: one for name, one in lowered.system.written.items() if name in lowered.taken}
     given = {name: one for name, one in lowered.inputs.items() if isinstance(one, Var)}
     domains = {name: one.domain for name, one in (written | given).items()}
+    try:
+        return _charts(lowered, file, step, domains, ChartTexts)
+    except NotLowered:  # as where a size, or a number of turns, is one of the constants
+        return _charts(lowered, file, step, domains, UnnamedTexts)
+
+
+def _charts(
+    lowered: LoweredModel, file: str, step: str, domains: Mapping[str, Domain], texts: type[ChartTexts]
+) -> DrawnCharts:
     labels: dict[str, ChartLabels] = {}
 
     class _Writer(LanguageSystemWriter):
-        found = labels
+        found, texts_of = labels, texts
 
     made = lowered_model(lowered.model, file, domains, step, _Writer)
     told = [note for note in made.notes if note not in lowered.notes]
@@ -63,12 +73,13 @@ class LanguageSystemWriter(SystemWriter):
     """The components of one system, its charts as charts of the language; ``found`` are their labels."""
 
     found: dict[str, ChartLabels]
+    texts_of: type[ChartTexts]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
         if chart.drawn.kind in ("MATLAB function", "truth table"):
             return super()._writer(chart, view, writer)
         context = self.context
-        return ChartTexts(
+        return self.texts_of(
             chart, view, context.table, writer, context.step, context.named,
             lambda one, node: context.names.of_datum(chart.drawn, one, node),
         )  # fmt: skip

@@ -46,6 +46,9 @@ class ChartTexts(ChartWriter):
     ``event`` is the input event in which the chart executes, if it has one.
     """
 
+    keeps_names = True
+    """Whether constants and parameters are shown by their names."""
+
     def __init__(
         self, chart: ParsedChart, view: ChartView, table: DataTable, writer: ProgramWriter, step: str,
         named: Mapping[str, str], data_names: Callable[[DrawnData, StateNode], str],
@@ -130,7 +133,7 @@ class ChartTexts(ChartWriter):
     def _declared(self, one: DrawnData, node: StateNode, function: FunctionNode | None = None) -> Symbolic:
         """A constant or a parameter keeps its name."""
         made = super()._declared(one, node, function)
-        if one.scope not in ("constant", "parameter") or not self.table.keeps_names:
+        if one.scope not in ("constant", "parameter") or not self.keeps_names:
             return made
         if not isinstance(made, SymbolicScalar) or not isinstance(made.expr, Const):
             return made
@@ -304,6 +307,12 @@ class ChartTexts(ChartWriter):
         return True
 
 
+class UnnamedTexts(ChartTexts):
+    """The same with the values of constants in place of their names, where something depends on them."""
+
+    keeps_names = False
+
+
 def states_only(chart: ParsedChart, view: ChartView) -> Chart:
     """A chart of the states that are drawn, in which formulas ask what is active."""
 
@@ -319,4 +328,4 @@ def _named(rows: Sequence[Statement | Action]) -> set[str]:
     return {name for row in rows if isinstance(row, Assign | If) for name in row.written | row.read_inside}
 
 
-__all__ = ["ChartTexts", "states_only"]
+__all__ = ["ChartTexts", "UnnamedTexts", "states_only"]

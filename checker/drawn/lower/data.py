@@ -90,8 +90,6 @@ class DataTable:
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
-    keeps_names: bool = True
-    """Whether charts that are written as charts of the language name their constants."""
     remarks: dict[str, str] = field(default_factory=dict)
     """What is to be known of a model, and changes nothing of what a verdict says."""
 
