@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
-from time import monotonic
+from time import process_time
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
@@ -56,9 +56,10 @@ class Readings:
 def compared_readings(lowered: LoweredModel, seconds: float, step: str = "", seed: int = 1) -> Readings:
     """Both readings on random inputs and those on both sides of each limit, held for a while.
 
-    It ends after so many seconds.  Raises ``ModelError`` where the interpreter does not know the model.
+    It ends after so many seconds of the processor.  Raises ``ModelError`` where the interpreter does not know
+    the model.
     """
-    random, end, steps = Random(seed), monotonic() + seconds, 0
+    random, end, steps = Random(seed), process_time() + seconds, 0
     uses = uses_of(lowered)
     values = {
         name: list(interesting(var, uses.get(var.name, ((), False))[0]))
@@ -66,7 +67,7 @@ def compared_readings(lowered: LoweredModel, seconds: float, step: str = "", see
         if isinstance(var, Var)
     }
     for run in range(RUNS):
-        if run and monotonic() > end:
+        if run and process_time() > end:
             return Readings(run, steps)
         difference, taken = _one_run(lowered, values, random, step)
         steps += taken

@@ -13,7 +13,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.lower import lower
 
 SECONDS = 5.0
-"""Seconds for which the two readings of a model are compared."""
+"""Seconds of the processor for which the two readings of a model are compared."""
 
 
 @dataclass(frozen=True)

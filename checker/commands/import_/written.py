@@ -34,7 +34,7 @@ from rovercheck.spec_model.lang.walk import structure
 from rovercheck.spec_model.lang.wellformed import check_system
 
 SECONDS = 5.0
-"""Seconds for which the written model is run beside the direct interpreter."""
+"""Seconds of the processor for which the written model is run beside the direct interpreter."""
 AROUND = "keep the .slx as the model: `--model {}` works with it"
 
 
