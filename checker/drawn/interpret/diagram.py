@@ -128,7 +128,7 @@ def _flat(name: str, value: MatlabValue) -> Iterator[tuple[str, Number]]:
 
 @dataclass
 class _Node:
-    """A block at work: ``inputs`` are what feeds its input ports, by their numbers."""
+    """A block at work: ``inputs`` are what feeds its input ports, ``typed`` that its outputs have types."""
 
     block: DrawnBlock
     inputs: list[tuple[str, int] | None]
@@ -141,7 +141,6 @@ class _Node:
     memory: MatlabValue | None = None
     outputs: list[MatlabValue] = field(default_factory=list)
     typed: bool = False
-    """Whether the outputs of its system have their types, also if that was not executed yet."""
     was: list[float] = field(default_factory=list)
     """The values of its trigger in the step before."""
 
@@ -284,11 +283,8 @@ class _System:
             given = deepcopy(system, {id(self._runner): self._runner}).step(values)
         except DrawnFault:
             return node.outputs
-        pairs = zip(node.outputs, given, strict=True)
-        first = self._runner.types.initial
-        return [
-            first(one.kind, *shape(one)) if now.kind == "double" != one.kind else now for now, one in pairs
-        ]
+        first, both = self._runner.types.initial, zip(node.outputs, given, strict=True)
+        return [first(b.kind, *shape(b)) if a.kind == "double" != b.kind else a for a, b in both]
 
     @staticmethod
     def _remembered(node: _Node) -> MatlabValue:
