@@ -40,6 +40,9 @@ class SystemWriter(CalledBlockWriter):
                 node.memory = self._remembered(node, first)
                 leaf_vars = (one.expr for _, one in leaves(node.memory, ""))
                 self.context.memories |= {var.name: var for var in leaf_vars if isinstance(var, Var)}
+            if node.block.kind == "Merge":
+                with self._told(node):
+                    self._mark(node)
         for node in self.nodes:
             if node.block.id not in self._wiring.called:
                 with self._told(node):
@@ -57,6 +60,8 @@ class SystemWriter(CalledBlockWriter):
             return self._chart(node)
         elif block.kind == "SubSystem" and block.system is not None:
             return self._subsystem(node, block.system)
+        elif block.kind == "Merge":
+            node.outputs = [self._merged(node)]
         elif block.kind in BLOCKS:
             try:
                 node.outputs = BLOCKS[block.kind](block, self._values(node), self.context.types)
@@ -103,7 +108,7 @@ class SystemWriter(CalledBlockWriter):
         components, ends = inner.lowered(self._values(node))
         self.own |= inner.own
         held, node.outputs = self._held(inner, ends, components)
-        return [*components, *held, *inner.delays()]
+        return [*components, *held, *inner.delays(), *self._marked(node)]
 
     def _held(
         self, inner: "SystemWriter", ends: Sequence[Symbolic], components: Sequence[Component]
