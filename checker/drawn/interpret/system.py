@@ -27,11 +27,9 @@ from rovercheck.checker.drawn.merges import UNSAID, merged
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
+from rovercheck.checker.drawn.resets import begins_anew, resets_refused
 from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
 from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
-
-RESET = (("StatesWhenEnabling", "EnablePort", "TriggerPort"), ("OutputWhenDisabled", "Outport"))
-"""What may begin anew, and the blocks that say so."""
 
 
 class SharedParts(Protocol):
@@ -143,9 +141,8 @@ class SystemAtWork:
             raise DrawnFault(
                 f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
             )
-        for name, *kinds in RESET:
-            if block.kind in kinds and parameters.get(name, "held") == "reset":
-                raise DrawnFault(f"the block {path}: {name} = reset is not known here; held is")
+        if block.system is not None and not block.chart and (said := resets_refused(block.system)):
+            raise DrawnFault(f"the block {path}: {said}")
 
     def at_rest(self) -> list[MatlabValue]:
         """The outputs of a system that was not executed yet."""
@@ -160,6 +157,17 @@ class SystemAtWork:
             else:
                 found.append(self._value(_port(node)))
         return found
+
+    def disabled(self, outputs: Sequence[MatlabValue]) -> list[MatlabValue]:
+        """The outputs in a step in which the system is disabled: some begin anew."""
+        return [
+            each_converted(
+                self._runner.value_of(end.block.parameters["InitialOutput"]), now.kind, NumberRules()
+            )
+            if begins_anew(end.block)
+            else now
+            for end, now in zip(self._ends, outputs, strict=True)
+        ]
 
     def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
         """Charts that are so drawn are entered before the first step, with inputs at rest."""
@@ -225,7 +233,7 @@ class SystemAtWork:
                 return node.system.step(values)
             if not node.typed:
                 node.typed, node.outputs = True, self._typed(node, node.system, values)
-            return node.outputs
+            return node.system.disabled(node.outputs) if node.control == "enable" else node.outputs
         if block.kind == "Merge":
             return [self._merged(node)]
         try:

@@ -50,6 +50,8 @@ class BlockNode:
     memory: Symbolic | None = None
     marks: list[tuple[SymbolicScalar, int]] = field(default_factory=list)
     """Of a subsystem the data of Merge blocks that say which was executed last, and its own number there."""
+    anew: list[Component] = field(default_factory=list)
+    """Of a subsystem its outputs that have their first value while it is disabled."""
 
 
 class WiredBlocks:
