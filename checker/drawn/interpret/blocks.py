@@ -129,6 +129,19 @@ def _relation(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Val
     return [binary(sign, inputs[0], inputs[1], WRAPS)]
 
 
+def _compared(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
+    """A comparison with a constant, which has the type of the input."""
+    written = block.parameters.get("const", "3.0") if block.kind == "CompareToConstant" else "0"
+    constant, kind = value_of(written), inputs[0].kind
+    if kind in WHOLE or kind in FLOATS:
+        found = each_converted(constant, kind, SATURATES)
+        if kind in WHOLE and [v.value for v in scalars(found)] != [v.value for v in scalars(constant)]:
+            raise DrawnFault(f"it compares {kind} with {written}: write a number of that type")
+        constant = found
+    sign = block.parameters.get("relop", "<=").replace("~=", "!=")
+    return [typed(block, binary(sign, inputs[0], constant, WRAPS), types)]
+
+
 def _sum(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     signs, rules = _signs(block.parameters.get("Inputs", "++"), "+"), rules_of(block)
     inputs = scalars(inputs[0]) if len(inputs) == 1 else _together(block, inputs)
@@ -285,6 +298,7 @@ def _magnitude(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Va
 
 BLOCKS: Mapping[str, BlockStep] = {
     "Constant": _constant, "Ground": _ground, "Logic": _logic, "RelationalOperator": _relation, "Sum": _sum,
+    "CompareToConstant": _compared, "CompareToZero": _compared,
     "Product": _product, "Gain": _gain, "Switch": _switch, "DataTypeConversion": _conversion,
     "BusSelector": _selected, "BusCreator": _bus, "Mux": _mux, "Demux": _demux,
     "Selector": _selected_elements, "MinMax": _extreme,

@@ -156,6 +156,21 @@ def _relation(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symb
     return [binary(sign, inputs[0], inputs[1], WRAPS)]
 
 
+def _compared(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
+    """A comparison with a constant, which has the type of the input."""
+    written = block.parameters.get("const", "3.0") if block.kind == "CompareToConstant" else "0"
+    constant, kind = types.value_of(written), inputs[0].kind
+    if kind in INTEGERS:
+        low, high = INTEGERS[kind]
+        values = [one.constant for one in flat(constant)]
+        if any(one is None or one.denominator != 1 or not low <= one <= high for one in values):
+            raise NotLowered(f"it compares {kind} with {written}: write a number of that type")
+    if kind in INTEGERS or kind in REALS:
+        constant = each_converted(constant, kind, WRAPS, types.kinds)
+    sign = block.parameters.get("relop", "<=").replace("~=", "!=")
+    return [types.typed(block, binary(sign, inputs[0], constant, WRAPS))]
+
+
 def _signs(text: str, sign: str) -> str:
     """The signs of inputs: as written, or as many as there are."""
     plain = text.replace("|", "").strip()
@@ -338,7 +353,8 @@ def _magnitude(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Sym
 
 BLOCKS: Mapping[str, BlockFormula] = {
     "Constant": _constant, "Ground": lambda block, inputs, types: [number("double", 0)], "Logic": _logic,
-    "RelationalOperator": _relation, "Sum": _sum, "Product": _product, "Gain": _gain, "Switch": _switch,
+    "RelationalOperator": _relation, "CompareToConstant": _compared, "CompareToZero": _compared,
+    "Sum": _sum, "Product": _product, "Gain": _gain, "Switch": _switch,
     "DataTypeConversion": _conversion, "BusSelector": _selected, "BusCreator": _bus, "Mux": _mux,
     "Demux": _demux, "Selector": _selected_elements, "MinMax": _extreme, "Saturate": _saturated,
     "Abs": _magnitude, "RateTransition": _same,
