@@ -45,7 +45,8 @@ INTERPRETER = (
     "tests/drawn/test_interpreter.py", "tests/drawn/test_early_return.py",
     "tests/drawn/test_interpreter_times.py", "tests/drawn/test_interpreter_numbers.py",
     "tests/drawn/test_computed_numbers.py", "tests/drawn/test_arrays.py", "tests/drawn/test_diagram_runs.py",
-    "tests/drawn/test_function_calls.py", "tests/drawn/test_simulink_functions.py",
+    "tests/drawn/test_function_calls.py", "tests/drawn/test_merges.py",
+    "tests/drawn/test_simulink_functions.py",
     "tests/drawn/test_boxes.py", "tests/drawn/test_atomic_subcharts.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
 )  # fmt: skip

@@ -19,6 +19,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from contextlib import redirect_stdout
+from functools import partial
 from importlib import import_module
 from io import StringIO
 from itertools import combinations
@@ -156,7 +157,7 @@ def main(count: int = 300, first: int = 0) -> int:
         if not found:
             told["alike"] += 1
             continue
-        defects = cause(lambda: difference(text, machine, events))  # noqa: B023
+        defects = cause(partial(difference, text, machine, events))
         told["with a known defect there" if defects else "different"] += 1
         print(f"{seed}: {found}", *(f"\n    {MENDS[one]}" for one in defects), sep="", flush=True)
     print(", ".join(f"{number} {word}" for word, number in told.items()))

@@ -60,6 +60,10 @@ BLOCKS: Mapping[str, str] = {
 """Blocks without a meaning here, and the way around them."""
 
 
+SELECTED = "Index vector (dialog)"
+"""How a Selector names elements: by numbers that are written in it."""
+
+
 def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
     """Everything in a model that is refused, or read otherwise, in the order of the file."""
     parts = {one.path: one for one in model.charts}
@@ -96,6 +100,14 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
         yield f"nothing is connected to its port {port}. Connect a signal, or delete the port."
     if len(ports) > 1:
         yield f"it has the ports {' and '.join(ports)}. Put what the second controls into a subsystem in it."
+
+
+def selector_refused(block: DrawnBlock) -> str:
+    """Why a Selector block has no meaning here; empty if it has one."""
+    said = block.parameters.get("IndexOptions", SELECTED).strip()
+    if block.parameters.get("NumberOfDimensions", "1").strip() != "1" or said != SELECTED:
+        return f"of Selector blocks those are known that name the elements of a vector ({SELECTED})"
+    return ""
 
 
 def _chart(chart: DrawnChart, parts: Parts) -> Iterator[DrawingNote]:

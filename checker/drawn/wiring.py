@@ -59,7 +59,10 @@ def number_of(block: DrawnBlock) -> int:
     return int(block.parameters.get("Port", "1"))
 
 
-ONE_INPUT = ("Gain", "DataTypeConversion", "Abs", "Saturate", "Outport", *DELAYS)
+ONE_INPUT = (
+    "Gain", "DataTypeConversion", "Abs", "Saturate", "CompareToConstant", "CompareToZero", "Selector",
+    "Outport", *DELAYS,
+)  # fmt: skip
 MOST_INPUTS = 10_000
 
 

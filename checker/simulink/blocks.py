@@ -22,6 +22,9 @@ MOST_LETTERS = 50_000_000
 MOST_LEVELS = 64
 """Systems in each other; the deepest diagrams known have a quarter of them."""
 
+LIBRARY = {"Compare To Constant": "CompareToConstant", "Compare To Zero": "CompareToZero"}
+"""Kinds of blocks of Simulink's own library that are links to it, by the type of their source."""
+
 
 class DiagramReader:
     """Reads the systems of a package, each once: a system that holds itself is refused."""
@@ -93,6 +96,10 @@ class DiagramReader:
         system, place = one.child("System"), self._package.place(part)
         kind = one.attributes.get("BlockType", "")
         parameters = {**self._defaults.get(kind, {}), **_properties(one)}
+        if kind == "Reference":
+            instance = one.child("InstanceData")
+            parameters |= {} if instance is None else _properties(instance)
+            kind = LIBRARY.get(parameters.get("SourceType", ""), kind)
         for name in VALUES if scope else ():
             if name in parameters:
                 parameters[name] = valued(parameters[name], scope, place, one.line)

@@ -13,6 +13,7 @@ from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.checker.simulink.writer.systems import WrittenSystem
 from tests.drawn.charts import logged, note, running
+from tests.drawn.two_readings import compared
 
 TWO = {"in": 2, "out": 1}
 
@@ -131,13 +132,13 @@ def test_a_from_gives_the_signal_of_the_goto_with_its_tag(tmp_path: Path) -> Non
     assert read(model, tmp_path).step({"a": 3, "b": 7}) == {"y1": 7, "y2": 3}
 
 
-def enabled(folder: Path, **values: object) -> ModelRunner:
+def enabled(folder: Path, outport: Mapping[str, object] | None = None, **values: object) -> ModelRunner:
     """A chart that counts, in a subsystem that runs where ``on`` is true."""
     model = WrittenModel("one")
     [on], [y] = ports(model.root, {"on": "boolean"})
     block, inside = model.root.subsystem("Sub", 0, 1, "enable")
     inside.block("EnablePort", "Enable", {}, {}, **values)
-    out = inside.outport("n", 1)
+    out = inside.outport("n", 1, **(outport or {}))
     chart_block, chart = inside.chart("Count")
     chart.data("n", "output", "uint8", 7)
     chart.transition(None, chart.state("A\nen: n = uint8(1);\ndu: n = n + 1;"))
@@ -152,6 +153,19 @@ def test_a_subsystem_that_is_not_enabled_is_frozen_and_gives_first_what_its_char
 ) -> None:
     runner = enabled(tmp_path)
     assert [runner.step({"on": on})["y1"] for on in (0, 1, 1, 0, 0, 1)] == [7, 1, 2, 2, 2, 3]
+
+
+def test_an_output_may_begin_anew_while_its_subsystem_is_disabled(tmp_path: Path) -> None:
+    """Its chart goes on from where it was."""
+    runner = enabled(tmp_path, {"OutputWhenDisabled": "reset", "InitialOutput": "4"})
+    rows = [{"on": on} for on in (0, 1, 1, 0, 0, 1, 0)]
+    assert compared(runner.model, rows).rows == len(rows)
+    assert [runner.step(row)["y1"] for row in rows] == [4, 1, 2, 4, 4, 3, 4]
+
+
+def test_an_output_that_begins_anew_needs_a_value(tmp_path: Path) -> None:
+    with pytest.raises(DrawnFault, match="n: OutputWhenDisabled = reset needs an initial output"):
+        enabled(tmp_path, {"OutputWhenDisabled": "reset"})
 
 
 def test_a_subsystem_that_begins_anew_is_refused(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from rovercheck.checker.drawn.lower.run import LoweredRun
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.drawn.two_readings import Row, compared
+from tests.simulink.packages_by_hand import refused
 
 Values = Mapping[str, object]
 
@@ -108,6 +109,46 @@ def test_what_a_mux_joins_a_demux_takes_apart_in_the_same_order(tmp_path: Path) 
         model.root.line(model.root.inport(name, number, OutDataTypeStr="int8"), f"{both}/{number}")
         model.root.line(f"{apart}/{number}", model.root.outport(f"y{number}", number))
     assert outputs(model, tmp_path, [{"a": 3, "b": 4}]) == [(3, 4)]
+
+
+def selecting(**values: object) -> WrittenModel:
+    """Some elements of the vector (a, b, c), in two outputs."""
+    model = WrittenModel("one")
+    both = model.root.block("Mux", "m", {"in": 3, "out": 1})
+    some = model.root.block("Selector", "s", {"in": 1, "out": 1}, {}, InputPortWidth="3", **values)
+    apart = model.root.block("Demux", "d", {"in": 1, "out": 2}, {}, Outputs="2")
+    model.root.line(both, some)
+    model.root.line(some, apart)
+    for number, name in enumerate("abc", 1):
+        model.root.line(model.root.inport(name, number, OutDataTypeStr="int8"), f"{both}/{number}")
+    for number in (1, 2):
+        model.root.line(f"{apart}/{number}", model.root.outport(f"y{number}", number))
+    return model
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [({"Indices": "[3 1]"}, (5, 3)), ({"Indices": "[2,2]", "IndexMode": "Zero-based"}, (5, 5))],
+)
+def test_a_selector_gives_the_elements_that_it_names(
+    tmp_path: Path, values: Values, expected: tuple[int, ...]
+) -> None:
+    assert outputs(selecting(**values), tmp_path, [{"a": 3, "b": 4, "c": 5}]) == [expected]
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"Indices": "[1 4]"}, "s: it names an element that is not among the 3 of its input"),
+        ({"Indices": "[0 1]"}, "s: it names an element that is not among the 3 of its input"),
+        ({"IndexOptions": "Index vector (port)"}, "s: of Selector blocks those are known that name"),
+    ],
+)
+def test_a_selector_without_a_meaning_is_refused_by_both_readings(
+    tmp_path: Path, values: Values, said: str
+) -> None:
+    read = read_model(selecting(**values).save(tmp_path / "one.slx"))
+    assert all(said in one for one in refused(read))
 
 
 @pytest.mark.parametrize(

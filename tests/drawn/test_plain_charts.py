@@ -110,11 +110,12 @@ def test_a_region_that_enters_its_state_again_is_refused(tmp_path: Path) -> None
         both, other = c.state("P", parallel=True), c.state("B")
         first, second = c.state("R1", both, 1), c.state("R2", both, 2)
         c.transition(None, both)
-        for region in (first, second):
-            k, m = c.state("K", region), c.state("M", region)
+        begin = {region: c.state("K", region) for region in (first, second)}
+        for region, k in begin.items():
+            m = c.state("M", region)
             c.transition(None, k)
             c.transition(k, m, "[u == 1]")
-        c.transition(first.children[0], both, "[u == 3]", 2, c)  # type: ignore[arg-type]
+        c.transition(begin[first], both, "[u == 3]", 2, c)
         c.transition(both, other, "[u == 2]")
 
     assert "later regions are still to be executed" in refused(tmp_path, draw)

@@ -242,6 +242,52 @@ def test_a_chart_of_which_the_block_is_commented_out_is_none(tmp_path: Path) -> 
     assert run(read, ROWS) == [(0, 0), (0, 0)]
 
 
+# --- links to the library of Simulink ----------------------------------------------------------------------
+
+
+def linked(source: str, new: bool, **values: object) -> str:
+    """A block of the library; newer releases put its values into an element of their own."""
+    written = "".join(f'<P Name="{key}">{value}</P>' for key, value in values.items())
+    inside = f"<InstanceData>{written}</InstanceData>" if new else written
+    link = f"simulink/Logic and Bit&#xA;Operations/{source.replace(' ', '&#xA;')}"
+    return block("Reference", "R", 5, inside, SourceBlock=link, SourceType=source)
+
+
+@pytest.mark.parametrize("new", [False, True])
+@pytest.mark.parametrize(
+    ("source", "values", "expected"),
+    [
+        ("Compare To Constant", {"relop": "&gt;=", "const": "K + 1"}, [0, 1, 1]),
+        ("Compare To Constant", {"relop": "==", "const": "4", "OutDataTypeStr": "uint8"}, [0, 1, 0]),
+        ("Compare To Zero", {"relop": "~="}, [1, 1, 1]),
+        ("Compare To Zero", {}, [1, 0, 0]),
+    ],
+)
+def test_comparisons_of_the_library_are_blocks(
+    source: str, values: Mapping[str, object], expected: list[int], new: bool, tmp_path: Path
+) -> None:
+    """A link to the library was refused, whatever it led to."""
+    made = ports(5, "u", "y") + linked(source, new, **values)
+    read = model(made, tmp_path, files={"values.m": "K = 3;"})
+    assert run(read, [{"u": value} for value in (-1, 4, 5)]) == [(one,) for one in expected]
+
+
+@pytest.mark.parametrize("constant", ["2.5", "200", "-129"])
+def test_a_comparison_with_no_value_of_the_type_is_refused_by_both_readings(
+    constant: str, tmp_path: Path
+) -> None:
+    made = ports(5, "u", "y") + linked("Compare To Constant", True, relop="&lt;", const=constant)
+    assert all(f"it compares int8 with {constant}" in one for one in refused(model(made, tmp_path)))
+
+
+def test_other_links_are_refused_by_name(tmp_path: Path) -> None:
+    read = model(ports(5, "u", "y") + linked("Detect Change", True, vinit="0"), tmp_path)
+    assert [str(note) for note in notes_of(read)] == [
+        "R, Reference block 5: it is a link to a library, which is in another file. Break the link, and save "
+        "the model again."
+    ]
+
+
 # --- function calls ----------------------------------------------------------------------------------------
 
 

@@ -29,6 +29,7 @@ from rovercheck.checker.drawn.interpret.values import (
     shape,
 )
 from rovercheck.checker.drawn.records import DrawnBlock
+from rovercheck.checker.drawn.refused import selector_refused
 
 Inputs = Sequence[MatlabValue]
 ValueOf = Callable[[str], MatlabValue]
@@ -126,6 +127,19 @@ def _logic(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueO
 def _relation(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     sign = block.parameters.get("Operator", "<=").replace("~=", "!=")
     return [binary(sign, inputs[0], inputs[1], WRAPS)]
+
+
+def _compared(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
+    """A comparison with a constant, which has the type of the input."""
+    written = block.parameters.get("const", "3.0") if block.kind == "CompareToConstant" else "0"
+    constant, kind = value_of(written), inputs[0].kind
+    if kind in WHOLE or kind in FLOATS:
+        found = each_converted(constant, kind, SATURATES)
+        if kind in WHOLE and [v.value for v in scalars(found)] != [v.value for v in scalars(constant)]:
+            raise DrawnFault(f"it compares {kind} with {written}: write a number of that type")
+        constant = found
+    sign = block.parameters.get("relop", "<=").replace("~=", "!=")
+    return [typed(block, binary(sign, inputs[0], constant, WRAPS), types)]
 
 
 def _sum(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -232,6 +246,21 @@ def _mux(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf)
     return [array(every, 1, len(every))]
 
 
+def _selected_elements(
+    block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf
+) -> list[MatlabValue]:
+    """The elements of a vector that a Selector names by their numbers."""
+    if reason := selector_refused(block):
+        raise DrawnFault(reason)
+    first = 0 if block.parameters.get("IndexMode") == "Zero-based" else 1
+    every = scalars(inputs[0])
+    places = [one.value - first for one in scalars(value_of(block.parameters.get("Indices", "1")))]
+    if not all(place in range(len(every)) for place in places):
+        raise DrawnFault(f"it names an element that is not among the {len(every)} of its input")
+    made = [every[int(place)] for place in places]
+    return [array(made, *((1, len(made)) if shape(inputs[0])[0] == 1 else (len(made), 1)))]
+
+
 def _demux(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     return list(scalars(inputs[0]))
 
@@ -269,8 +298,10 @@ def _magnitude(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: Va
 
 BLOCKS: Mapping[str, BlockStep] = {
     "Constant": _constant, "Ground": _ground, "Logic": _logic, "RelationalOperator": _relation, "Sum": _sum,
+    "CompareToConstant": _compared, "CompareToZero": _compared,
     "Product": _product, "Gain": _gain, "Switch": _switch, "DataTypeConversion": _conversion,
-    "BusSelector": _selected, "BusCreator": _bus, "Mux": _mux, "Demux": _demux, "MinMax": _extreme,
+    "BusSelector": _selected, "BusCreator": _bus, "Mux": _mux, "Demux": _demux,
+    "Selector": _selected_elements, "MinMax": _extreme,
     "Saturate": _saturated, "Abs": _magnitude, "RateTransition": _same, "ZeroOrderHold": _same,
     "SignalConversion": _same, "SignalSpecification": _same, "Terminator": _nothing, "Scope": _nothing,
     "Display": _nothing, "ToWorkspace": _nothing,

@@ -22,16 +22,14 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
+from rovercheck.checker.drawn.interpret.wake import FUNCTIONS, outputs_of, woken
+from rovercheck.checker.drawn.merges import UNSAID, merged
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
+from rovercheck.checker.drawn.resets import begins_anew, resets_refused
 from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
 from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
-
-RESET = (("StatesWhenEnabling", "EnablePort", "TriggerPort"), ("OutputWhenDisabled", "Outport"))
-"""What may begin anew, and the blocks that say so."""
-FUNCTIONS = ("MATLAB function", "truth table")
-"""Charts that are one function each, without states."""
 
 
 class SharedParts(Protocol):
@@ -64,6 +62,8 @@ class BlockAtWork:
     outputs: list[MatlabValue] = field(default_factory=list)
     typed: bool = False
     """Whether the outputs of its system have their types, also if that was not executed yet."""
+    turn: int = 0
+    """In the how many-th turn of a subsystem in its system it was executed last; 0: in none."""
     was: list[float] = field(default_factory=list)
     """The values of its trigger in the step before."""
     functions: "list[SystemAtWork]" = field(default_factory=list)
@@ -78,16 +78,20 @@ class SystemAtWork:
     """The blocks of a system with their values."""
 
     def __init__(self, system: DrawnSystem, runner: SharedParts) -> None:
-        self._runner = runner
+        self._runner, self._turns = runner, 0
         wiring = wired(system)
         self._nodes = [self._node(block, wiring) for block in wiring.order]
         self._by_id = {node.block.id: node for node in self._nodes}
         ends = [node for node in self._nodes if node.block.kind == "Outport"]
         self._ends = sorted(ends, key=lambda node: number_of(node.block))
+        blocks = {name: node.block for name, node in self._by_id.items()}
         for node in self._nodes:
+            if node.block.kind == "Merge":
+                with _told(node):
+                    merged(node.block, node.inputs, blocks)
             if node.chart is not None:
                 node.calls = self._calls_of(node.block, node.chart, wiring)
-                node.outputs = _outputs_of(node.chart)
+                node.outputs = outputs_of(node.chart)
             elif node.system is not None:
                 node.outputs = node.system.at_rest()
 
@@ -113,7 +117,7 @@ class SystemAtWork:
             node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
         elif block.kind in DELAYS:
             node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
-        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", *_CONTROLS):
+        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", "Merge", *_CONTROLS):
             raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
 
@@ -137,9 +141,8 @@ class SystemAtWork:
             raise DrawnFault(
                 f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
             )
-        for name, *kinds in RESET:
-            if block.kind in kinds and parameters.get(name, "held") == "reset":
-                raise DrawnFault(f"the block {path}: {name} = reset is not known here; held is")
+        if block.system is not None and not block.chart and (said := resets_refused(block.system)):
+            raise DrawnFault(f"the block {path}: {said}")
 
     def at_rest(self) -> list[MatlabValue]:
         """The outputs of a system that was not executed yet."""
@@ -155,6 +158,17 @@ class SystemAtWork:
                 found.append(self._value(_port(node)))
         return found
 
+    def disabled(self, outputs: Sequence[MatlabValue]) -> list[MatlabValue]:
+        """The outputs in a step in which the system is disabled: some begin anew."""
+        return [
+            each_converted(
+                self._runner.value_of(end.block.parameters["InitialOutput"]), now.kind, NumberRules()
+            )
+            if begins_anew(end.block)
+            else now
+            for end, now in zip(self._ends, outputs, strict=True)
+        ]
+
     def initialize(self, inputs: Sequence[MatlabValue] = ()) -> None:
         """Charts that are so drawn are entered before the first step, with inputs at rest."""
         for node in self._nodes:
@@ -164,7 +178,7 @@ class SystemAtWork:
                 if node.chart.chart.drawn.at_initialization:
                     self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
-                node.outputs = _outputs_of(node.chart)
+                node.outputs = outputs_of(node.chart)
             if node.system is not None:
                 node.system.initialize()
                 node.outputs = node.system.at_rest()
@@ -215,15 +229,33 @@ class SystemAtWork:
             return self._charted(node, node.chart, values)
         if node.system is not None:
             if self._runs(node):
-                node.typed = True
+                self._begin(node)
                 return node.system.step(values)
             if not node.typed:
                 node.typed, node.outputs = True, self._typed(node, node.system, values)
-            return node.outputs
+            return node.system.disabled(node.outputs) if node.control == "enable" else node.outputs
+        if block.kind == "Merge":
+            return [self._merged(node)]
         try:
             return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
         except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
             raise DrawnFault("its inputs and parameters do not fit each other") from error
+
+    def _begin(self, node: BlockAtWork) -> None:
+        self._turns += 1
+        node.turn, node.typed = self._turns, True
+
+    def _merged(self, node: BlockAtWork) -> MatlabValue:
+        """What the subsystem gives that was executed last."""
+        ports = [port for port in node.inputs if port is not None]
+        last = max(ports, key=lambda port: self._by_id[port[0]].turn)
+        now = self._value(last)
+        if {one.kind for one in map(self._value, ports)} != {now.kind}:
+            raise DrawnFault("its inputs have several types: give them one")
+        written = node.block.parameters.get("InitialOutput", UNSAID).strip()
+        if self._by_id[last[0]].turn or written == UNSAID:
+            return now
+        return each_converted(self._runner.value_of(written), now.kind, NumberRules())
 
     def _typed(
         self, node: BlockAtWork, system: "SystemAtWork", values: Sequence[MatlabValue]
@@ -278,7 +310,7 @@ class SystemAtWork:
         self, node: BlockAtWork, machine: ChartMachine, values: Sequence[MatlabValue]
     ) -> list[MatlabValue]:
         self._feed(machine, values)
-        return _woken(machine, self._events(node, machine))
+        return woken(machine, self._events(node, machine))
 
     @staticmethod
     def _feed(machine: ChartMachine, values: Sequence[MatlabValue | None]) -> None:
@@ -298,16 +330,16 @@ class SystemAtWork:
         call = caller.calls[event]
         if call is None or caller.chart is None:
             return  # nothing is connected
-        caller.outputs = _outputs_of(caller.chart)
+        caller.outputs = outputs_of(caller.chart)
         node = self._by_id[call.target]
         with _told(node):
             values = self._values(node)
             if node.chart is not None:
                 self._feed(node.chart, values)
                 events = [one for one in node.chart.chart.root.events.values() if one.scope == "input"]
-                node.outputs = _woken(node.chart, [call_event(node.block.shown, events, call.event)])
+                node.outputs = woken(node.chart, [call_event(node.block.shown, events, call.event)])
             elif node.system is not None:
-                node.typed = True
+                self._begin(node)
                 node.outputs = node.system.step(values)
         called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
         pairs = zip(self._values(caller), called, strict=True)
@@ -339,25 +371,6 @@ def _executed(
     """What a Simulink function gives for some arguments."""
     found = system.step([given[name] for name in function.inputs])
     return dict(zip(function.outputs, found, strict=True))
-
-
-def _woken(machine: ChartMachine, events: Sequence[str] | None) -> list[MatlabValue]:
-    """Wake up a chart by some events, or ``None``: by the step; the answer are its outputs."""
-    if machine.chart.drawn.kind in FUNCTIONS:
-        for _ in [""] if events is None else events:
-            machine.run_block()
-    elif events is None:
-        machine.step()
-    elif events:
-        machine.step(events)
-    return _outputs_of(machine)
-
-
-def _outputs_of(machine: ChartMachine) -> list[MatlabValue]:
-    """The values of a chart's outputs, in the order of their ports; those of events are the last."""
-    data = machine.chart.root.data.values()
-    found = [machine.memory.values[one.ssid] for one in data if one.scope == "output"]
-    return [*found, *machine.output_events.signals()]
 
 
 def _same_number(one: str, other: str) -> bool:

@@ -43,6 +43,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.records import DrawnBlock
+from rovercheck.checker.drawn.refused import selector_refused
 from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, const
 
 Inputs = Sequence[Symbolic]
@@ -153,6 +154,21 @@ def _either(one: Expr, other: Expr) -> Expr:
 def _relation(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     sign = block.parameters.get("Operator", "<=").replace("~=", "!=")
     return [binary(sign, inputs[0], inputs[1], WRAPS)]
+
+
+def _compared(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
+    """A comparison with a constant, which has the type of the input."""
+    written = block.parameters.get("const", "3.0") if block.kind == "CompareToConstant" else "0"
+    constant, kind = types.value_of(written), inputs[0].kind
+    if kind in INTEGERS:
+        low, high = INTEGERS[kind]
+        values = [one.constant for one in flat(constant)]
+        if any(one is None or one.denominator != 1 or not low <= one <= high for one in values):
+            raise NotLowered(f"it compares {kind} with {written}: write a number of that type")
+    if kind in INTEGERS or kind in REALS:
+        constant = each_converted(constant, kind, WRAPS, types.kinds)
+    sign = block.parameters.get("relop", "<=").replace("~=", "!=")
+    return [types.typed(block, binary(sign, inputs[0], constant, WRAPS))]
 
 
 def _signs(text: str, sign: str) -> str:
@@ -287,6 +303,20 @@ def _mux(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]
     return [matrix(every, 1, len(every))]
 
 
+def _selected_elements(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
+    """The elements of a vector that a Selector names by their numbers."""
+    if reason := selector_refused(block):
+        raise NotLowered(reason)
+    first = 0 if block.parameters.get("IndexMode") == "Zero-based" else 1
+    every, made = flat(inputs[0]), list[SymbolicScalar]()
+    for one in flat(types.value_of(block.parameters.get("Indices", "1"))):
+        place = one.constant
+        if place is None or place - first not in range(len(every)):
+            raise NotLowered(f"it names an element that is not among the {len(every)} of its input")
+        made.append(every[int(place) - first])
+    return [matrix(made, *((1, len(made)) if size_of(inputs[0])[0] == 1 else (len(made), 1)))]
+
+
 def _demux(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     return list(flat(inputs[0]))
 
@@ -323,9 +353,11 @@ def _magnitude(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Sym
 
 BLOCKS: Mapping[str, BlockFormula] = {
     "Constant": _constant, "Ground": lambda block, inputs, types: [number("double", 0)], "Logic": _logic,
-    "RelationalOperator": _relation, "Sum": _sum, "Product": _product, "Gain": _gain, "Switch": _switch,
+    "RelationalOperator": _relation, "CompareToConstant": _compared, "CompareToZero": _compared,
+    "Sum": _sum, "Product": _product, "Gain": _gain, "Switch": _switch,
     "DataTypeConversion": _conversion, "BusSelector": _selected, "BusCreator": _bus, "Mux": _mux,
-    "Demux": _demux, "MinMax": _extreme, "Saturate": _saturated, "Abs": _magnitude, "RateTransition": _same,
+    "Demux": _demux, "Selector": _selected_elements, "MinMax": _extreme, "Saturate": _saturated,
+    "Abs": _magnitude, "RateTransition": _same,
     "ZeroOrderHold": _same, "SignalConversion": _same, "SignalSpecification": _same, "Terminator": _nothing,
     "Scope": _nothing, "Display": _nothing, "ToWorkspace": _nothing,
 }  # fmt: skip

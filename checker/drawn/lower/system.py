@@ -20,12 +20,10 @@ from rovercheck.checker.drawn.lower.symbols import (
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.records import DrawnSystem
+from rovercheck.checker.drawn.resets import begins_anew, resets_refused
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of
-
-RESET = (("StatesWhenEnabling", "EnablePort", "TriggerPort"), ("OutputWhenDisabled", "Outport"))
-"""What may begin anew, and the blocks that say so."""
 
 
 class SystemWriter(CalledBlockWriter):
@@ -40,6 +38,9 @@ class SystemWriter(CalledBlockWriter):
                 node.memory = self._remembered(node, first)
                 leaf_vars = (one.expr for _, one in leaves(node.memory, ""))
                 self.context.memories |= {var.name: var for var in leaf_vars if isinstance(var, Var)}
+            if node.block.kind == "Merge":
+                with self._told(node):
+                    self._mark(node)
         for node in self.nodes:
             if node.block.id not in self._wiring.called:
                 with self._told(node):
@@ -57,6 +58,8 @@ class SystemWriter(CalledBlockWriter):
             return self._chart(node)
         elif block.kind == "SubSystem" and block.system is not None:
             return self._subsystem(node, block.system)
+        elif block.kind == "Merge":
+            node.outputs = [self._merged(node)]
         elif block.kind in BLOCKS:
             try:
                 node.outputs = BLOCKS[block.kind](block, self._values(node), self.context.types)
@@ -89,24 +92,28 @@ class SystemWriter(CalledBlockWriter):
         else:
             raise NotLowered(f"a subsystem that is controlled by {node.control}")
         inside = self._inside(node, system)
-        return [*([Enabled(by, *inside, name=plain_name(block.name))] if inside else []), *after]
+        name = plain_name(block.name)
+        anew = [Enabled(folded(~by), *node.anew, name=f"{name}_disabled")] if node.anew else []
+        return [*anew, *([Enabled(by, *inside, name=name)] if inside else []), *after]
 
     def _inner(self, name: str, system: DrawnSystem) -> "SystemWriter":
         return type(self)(system, self.context, f"{self._path}_{name}".strip("_"))
 
     def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
-        for one in system.blocks:
-            for name, *kinds in RESET:
-                if one.kind in kinds and one.parameters.get(name, "held") == "reset":
-                    raise NotLowered(f"{name} = reset: held is known here")
+        if said := resets_refused(system):
+            raise NotLowered(said)
         inner = self._inner(node.block.name, system)
         components, ends = inner.lowered(self._values(node))
         self.own |= inner.own
-        held, node.outputs = self._held(inner, ends, components)
-        return [*components, *held, *inner.delays()]
+        held, node.outputs = self._held(node, inner, ends, components)
+        return [*components, *held, *inner.delays(), *self._marked(node)]
 
     def _held(
-        self, inner: "SystemWriter", ends: Sequence[Symbolic], components: Sequence[Component]
+        self,
+        node: BlockNode,
+        inner: "SystemWriter",
+        ends: Sequence[Symbolic],
+        components: Sequence[Component],
     ) -> tuple[list[Component], list[Symbolic]]:
         """The outputs of a subsystem that does not run in every step: data that stay as they are."""
         table, outputs, held = self.context.table, list[Symbolic](), list[Component]()
@@ -133,6 +140,13 @@ class SystemWriter(CalledBlockWriter):
             for (_, cell), (_, new) in zip(leaves(cells, name), leaves(value, name), strict=True):
                 table.write(writer, cell, new.expr)
             held.append(Block(name, writer.written(), text=f"The output {end.block.path}."))
+            if begins_anew(end.block):
+                writer = ProgramWriter(f"{name}_anew")
+                for (_, cell), (_, begin) in zip(leaves(cells, name), leaves(first, name), strict=True):
+                    table.write(writer, cell, begin.expr)
+                node.anew.append(
+                    Block(writer.name, writer.written(), text=f"The output {end.block.path}, anew.")
+                )
             outputs.append(cells)
         return held, outputs
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from rovercheck.checker.drawn.calls import Port
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.lower.blocks import either
 from rovercheck.checker.drawn.lower.context import LoweringContext
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
@@ -19,6 +20,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     NotLowered,
     Symbolic,
     SymbolicScalar,
+    folded,
     leaves,
     matrix,
     number,
@@ -27,11 +29,12 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.checker.drawn.lower.view import plain_name
+from rovercheck.checker.drawn.merges import UNSAID, merged
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 from rovercheck.checker.drawn.wiring import SystemWiring, number_of, wired
 from rovercheck.spec_model.lang.chart import Block, Component
-from rovercheck.spec_model.lang.expr import FALSE
+from rovercheck.spec_model.lang.expr import FALSE, const
 from rovercheck.spec_model.lang.walk import variables
 
 
@@ -45,6 +48,10 @@ class BlockNode:
     fed: Port | None = None
     outputs: list[Symbolic] = field(default_factory=list)
     memory: Symbolic | None = None
+    marks: list[tuple[SymbolicScalar, int]] = field(default_factory=list)
+    """Of a subsystem the data of Merge blocks that say which was executed last, and its own number there."""
+    anew: list[Component] = field(default_factory=list)
+    """Of a subsystem its outputs that have their first value while it is disabled."""
 
 
 class WiredBlocks:
@@ -126,6 +133,43 @@ class WiredBlocks:
         except NotLowered as error:
             where, text = " ".join(node.block.path.split()), str(error)
             raise NotLowered(text if text.startswith(where) else f"{where}: {text}") from error
+
+    # --- merges --------------------------------------------------------------------------------------------
+
+    def _mark(self, node: BlockNode) -> None:
+        """Have the subsystems that feed a Merge block say which was executed last.  Raises ``NotLowered``."""
+        try:
+            ports = merged(node.block, node.inputs, {name: one.block for name, one in self._by_id.items()})
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+        name = f"{self._named(node.block)}.last"
+        cell = self.context.table.declared(
+            name, number("uint8", 0), doc=f"what {node.block.path} gives: 0, none"
+        )
+        node.marks = [(single_of(cell), 0)]
+        for mark, (source, _) in enumerate(ports, 1):
+            self._by_id[source].marks.append((single_of(cell), mark))
+
+    def _marked(self, node: BlockNode) -> list[Component]:
+        """The end of a step of a subsystem that a Merge block merges."""
+        writer = ProgramWriter(plain_name(f"{self._path}_{node.block.name}_last".strip("_")))
+        for cell, mark in node.marks:
+            self.context.table.write(writer, cell, const(mark))
+        return [Block(writer.name, writer.written(), text="Executed last.")] if node.marks else []
+
+    def _merged(self, node: BlockNode) -> Symbolic:
+        """What the subsystem gives that was executed last."""
+        values = [self._value(port) for port in node.inputs if port is not None]
+        if len({one.kind for one in values}) > 1:
+            raise NotLowered("its inputs have several types: give them one")
+        text = node.block.parameters.get("InitialOutput", UNSAID).strip()
+        kinds, [(cell, _)] = self.context.table.kinds, node.marks
+        made = values[0]
+        if text != UNSAID:
+            made = each_converted(self.context.value_of(text), made.kind, IntegerRules(), kinds)
+        for mark, value in enumerate(values, 1):
+            made = either(folded(cell.expr == const(mark)), value, made, kinds)
+        return made
 
     # --- delays --------------------------------------------------------------------------------------------
 

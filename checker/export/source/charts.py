@@ -15,7 +15,7 @@ from rovercheck.checker.export.source.layout import (
     listed,
     quoted,
 )
-from rovercheck.spec_model.lang.action import expressions
+from rovercheck.spec_model.lang.action import Action, expressions
 from rovercheck.spec_model.lang.chart import Chart, Path, State
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.stateflow.names import LabelNames
@@ -132,9 +132,9 @@ class ChartSource:
         return ".".join(path)
 
     def _refuse_places(
-        self, what: str, actions: Sequence[Sequence[object]], transition: Transition | None = None
+        self, what: str, actions: Sequence[Sequence[Action]], transition: Transition | None = None
     ) -> None:
-        formulas = [one for some in actions for one in expressions(some)]  # type: ignore[arg-type]
+        formulas = [one for some in actions for one in expressions(some)]
         if transition is not None and transition.guard is not None:
             formulas.append(transition.guard)
         if self._writer.asks_for_states(*formulas):

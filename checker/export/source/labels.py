@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from rovercheck.checker.export.source.layout import WIDTH
 from rovercheck.spec_model.lang.action import Action, Assign, If, Send
 from rovercheck.spec_model.lang.chart import Chart, State, Transition
+from rovercheck.spec_model.lang.domain import Domain, Enum
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
 from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.operators import Op
@@ -142,8 +143,10 @@ class LabelWriter:
             case Apply(Op.EQ, (Var(name), Const(1))) if name == self._chart.entered.name:
                 region = self._chart.root.states[0].name
                 return Named(f"in({self._short((region,))})", expr)
-            case Apply(Op.EQ | Op.NE as op, (Var(name), Const(value, _)), sort) if name in self._states:
-                path = (*self._states[name], expr.args[0].sort.member(value))  # type: ignore[union-attr]
+            case Apply(Op.EQ | Op.NE as op, (Var(name, Domain(Enum() as kind)), Const(value)), sort) if (
+                name in self._states
+            ):
+                path = (*self._states[name], kind.member(value))
                 if path in self._chart.states:
                     shown = Named(f"in({self._short(path)})", Apply(Op.EQ, expr.args, sort))
                     return shown if op is Op.EQ else Apply(Op.NOT, (shown,), sort)
