@@ -60,6 +60,8 @@ WITHOUT_WORDS = {
     "changes": "whether `u` has changed",
     "graphical": "a path may go through junction",
     "triggered": "has 2 input events",
+    "calls": "has an event to other blocks: write to a datum",
+    "function": "has the Simulink function f (SSID 3): write it as a MATLAB function",
 }
 """What of the models by hand is refused, and in which words."""
 
