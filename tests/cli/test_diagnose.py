@@ -36,7 +36,7 @@ def test_the_causes_of_a_log_are_told_and_written(tmp_path: Path, capsys: pytest
         "Safety_state": "Safety_state behaves as if rover_safety_state is given a step later",
     }
     assert all(p["tried"] == p["candidates"] for p in board["parts"])
-    assert diagnose(*FAULTS, "--variant", str(variant)) is Exit.FAILED
+    assert diagnose(*FAULTS, "--variant", str(variant), "--seconds", "20") is Exit.FAILED
     told = capsys.readouterr().out
     assert "Safety_state" not in told and "Monitor_wheel" not in told
     # Two columns of that log are exchanged, no wheels: its masks are those of the charts.
