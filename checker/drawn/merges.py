@@ -20,7 +20,9 @@ def merged(block: DrawnBlock, inputs: Sequence[Port | None], blocks: Mapping[str
     """
     found = [port for port in inputs if port is not None]
     for name, number in found:
-        source = blocks[name]
+        source = blocks.get(name)
+        if source is None:
+            raise DrawnFault(f"the block {name}, which feeds it, is not there")
         inside = () if source.system is None or source.chart else source.system.blocks
         if not (any(one.kind in CONTROL for one in inside) or is_called(source)) or source.chart:
             raise DrawnFault(

@@ -197,6 +197,11 @@ class DrawnChart:
         """The last name of its path."""
         return names_of(self.path)[-1]
 
+    @property
+    def is_function(self) -> bool:
+        """Whether it is one function, a MATLAB function or a truth table, without states."""
+        return self.kind in ("MATLAB function", "truth table")
+
 
 @dataclass(frozen=True)
 class DrawnLine:

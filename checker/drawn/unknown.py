@@ -47,7 +47,7 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
             if function.flow is not None and drawn.table is not None:
                 labels = (one.label for one in function.flow.defaults)
                 yield from finder.notes(function.flow, what, drawn.ssid, drawn.line, *labels)
-    if chart.drawn.kind in ("MATLAB function", "truth table"):
+    if chart.drawn.is_function:
         return  # what is drawn there calls its function
     for one in chart.transitions:
         what, drawn_ = f"the transition `{label_of(one.drawn)}`", one.drawn

@@ -99,7 +99,8 @@ class DiagramReader:
         if kind == "Reference":
             instance = one.child("InstanceData")
             parameters |= {} if instance is None else _properties(instance)
-            kind = LIBRARY.get(parameters.get("SourceType", ""), kind)
+            if parameters.get("SourceBlock", "").startswith("simulink/"):
+                kind = LIBRARY.get(parameters.get("SourceType", ""), kind)
         for name in VALUES if scope else ():
             if name in parameters:
                 parameters[name] = valued(parameters[name], scope, place, one.line)

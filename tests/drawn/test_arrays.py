@@ -55,7 +55,7 @@ def test_an_index_that_names_nothing_is_a_step_without_a_meaning(tmp_path: Path,
 
 def test_a_matrix_has_the_type_of_its_integers(tmp_path: Path) -> None:
     def draw(c: WrittenChart) -> None:
-        c.transition(None, c.state("A\nen: log = double(sum([100 uint8(200)]));"))
+        c.transition(None, c.state("A\nen: log = double(max([100 uint8(200)] + 100));"))
 
     assert logged(running(tmp_path, draw), [0]) == [255]
 

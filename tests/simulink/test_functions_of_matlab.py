@@ -63,6 +63,34 @@ def test_what_a_function_gives_is_not_the_datum_of_the_chart_with_its_name(
 @pytest.mark.parametrize(
     ("body", "expected"),
     [
+        ("y = sum(uint8([200 100])) + u;", [300, 301, 302, 303, 299]),
+        ("y = sum(int8([1 2 u])) / 2;", [1.5, 2, 2.5, 3, 1]),
+        ("y = prod(int8([100 2])) + u;", [200, 201, 202, 203, 199]),
+        ("y = mean(int32([1 2])) + u;", [1.5, 2.5, 3.5, 4.5, 0.5]),
+        ("y = double(dot(int8([1 2]), int8([u 3])));", [6, 7, 8, 9, 5]),
+    ],
+)  # fmt: skip
+def test_sums_and_products_of_integers_are_double(tmp_path: Path, body: str, expected: list[float]) -> None:
+    """They stopped at the ends of the type, and a quotient of a sum was rounded."""
+    assert given_by(script_of(body, tmp_path)) == expected
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [("pow(u - 10, 0.5)", "no real number"), ("pow(10, 200.0 * u)", ""), ("ldexp(1, 1000.0 * u)", "")],
+)
+def test_numbers_of_c_without_a_value_are_no_internal_error(tmp_path: Path, call: str, said: str) -> None:
+    runner = ModelRunner(in_c(f"y = {call} > 5;", tmp_path))
+    if said:
+        with pytest.raises(DrawnFault, match=said):
+            runner.step({"u": 2})
+    else:
+        assert runner.step({"u": 2}) == {"y": 1}
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
         ("A = [1 2; 3 u]; v = sum(A); y = v(2);", [2, 3, 4, 5, 1]),
         ("A = [1 2; 3 u]; v = sum(A, 2); y = v(2);", [3, 4, 5, 6, 2]),
         ("A = [1 2; 3 u]; v = max(A, [], 1); y = v(2);", [2, 2, 2, 3, 2]),

@@ -76,7 +76,7 @@ class LanguageSystemWriter(SystemWriter):
     texts_of: type[ChartTexts]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
-        if chart.drawn.kind in ("MATLAB function", "truth table"):
+        if chart.drawn.is_function:
             return super()._writer(chart, view, writer)
         context = self.context
         return self.texts_of(
@@ -86,7 +86,7 @@ class LanguageSystemWriter(SystemWriter):
 
     def _chart(self, node: BlockNode) -> list[Component]:
         context, chart = self.context, self.context.chart(node.block.chart)
-        if chart.drawn.kind in ("MATLAB function", "truth table"):
+        if chart.drawn.is_function:
             return [self._plain(one) for one in super()._chart(node)]
         name = context.names.of_chart(chart.drawn)
         view = ChartView(chart, name, context.file, context.table.starting)

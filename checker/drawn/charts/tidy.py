@@ -141,10 +141,6 @@ def _choice_of(test: Expr, then: Expr, otherwise: Expr) -> Expr:
     return Apply(Op.ITE, (test, then, otherwise), Bool())
 
 
-def _bit(expr: Apply) -> Expr:
-    return bit_of_sum(expr)
-
-
 def _quotient(expr: Apply) -> Expr:
     """A quotient of a fraction, rounded down, as one of whole numbers."""
     value, by = expr.args
@@ -183,7 +179,7 @@ def _in_steps(expr: Expr) -> Expr | None:
 
 
 RULES: Mapping[Op, Callable[[Apply], Expr]] = {
-    Op.AND: _joined, Op.OR: _joined, Op.NOT: _negated, Op.ITE: _choice, Op.BIT: _bit,
+    Op.AND: _joined, Op.OR: _joined, Op.NOT: _negated, Op.ITE: _choice, Op.BIT: bit_of_sum,
     Op.DIV: _quotient, **dict.fromkeys(COMPARISONS, _compared),
 }  # fmt: skip
 

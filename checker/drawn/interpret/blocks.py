@@ -117,7 +117,7 @@ def _logic(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueO
     if operator not in ways:
         raise DrawnFault(f"the operator {operator} of a Logic block is not known")
     if len(inputs) == 1 and operator != "NOT":
-        return [logical(ways[operator]([one.truth for one in scalars(inputs[0])]))]
+        return [typed(block, logical(ways[operator]([one.truth for one in scalars(inputs[0])])), types)]
     places, size = _beside(inputs)
     return [
         typed(block, array([logical(ways[operator]([o.truth for o in p])) for p in places], *size), types)

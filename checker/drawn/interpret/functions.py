@@ -6,6 +6,7 @@ from math import ceil, floor, fmod, inf, isfinite, isinf, isnan, nan, sqrt, trun
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.operations import BITS, binary
 from rovercheck.checker.drawn.interpret.values import (
+    FLOATS,
     TYPES,
     WHOLE,
     ArrayOf,
@@ -149,9 +150,14 @@ def _set_bit(arguments: Arguments, rules: NumberRules) -> MatlabValue:
     return Scalar(value.kind, changed if value.kind in WHOLE else float(changed))
 
 
+def real_of(value: MatlabValue) -> MatlabValue:
+    """What sums and products are made of: real numbers stay as they are, others are double."""
+    return value if value.kind in FLOATS else each_converted(value, "double", NumberRules())
+
+
 def _sum(arguments: Arguments, rules: NumberRules) -> MatlabValue:
     found: MatlabValue = double(0)
-    for number, one in enumerate(scalars(arguments[0])):
+    for number, one in enumerate(scalars(real_of(arguments[0]))):
         found = binary("+", found, one, rules) if number else binary("+", one, double(0), rules)
     return found
 

@@ -1,10 +1,11 @@
 """Further functions of MATLAB and C: operators by their names, sizes, sums along vectors, limits of types."""
 
 from collections.abc import Callable, Mapping, Sequence
-from math import fmod, inf, isfinite, isinf, pi
+from functools import reduce
+from math import fmod, inf, isfinite, isinf, ldexp, pi, pow
 
 from rovercheck.checker.drawn.faults import DrawnFault
-from rovercheck.checker.drawn.interpret.functions import BUILTINS, Builtin
+from rovercheck.checker.drawn.interpret.functions import BUILTINS, Builtin, real_of
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
@@ -57,13 +58,18 @@ def _of_c(change: Callable[[float, float], float]) -> Builtin:
 
     def apply(arguments: Arguments, rules: NumberRules) -> MatlabValue:
         left, right = (float(scalar(one).value) for one in arguments)
-        return double(change(left, right))
+        try:
+            return double(change(left, right))
+        except OverflowError:
+            return double(inf)
+        except ValueError as error:
+            raise DrawnFault(f"{left:g} and {right:g} give no real number") from error
 
     return apply
 
 
 def _power(base: float, exponent: float) -> float:
-    return inf if base == 0 and exponent < 0 else base**exponent
+    return inf if base == 0 and exponent < 0 else pow(base, exponent)
 
 
 def _remainder(left: float, right: float) -> float:
@@ -94,7 +100,7 @@ def _size(arguments: Arguments, rules: NumberRules) -> MatlabValue:
 
 def _product(arguments: Arguments, rules: NumberRules) -> MatlabValue:
     found: MatlabValue = double(1)
-    for one in scalars(arguments[0]):
+    for one in scalars(real_of(arguments[0])):
         found = binary("*", found, one, rules)
     return found
 
@@ -118,8 +124,8 @@ def _scalar_product(arguments: Arguments, rules: NumberRules) -> MatlabValue:
     left, right = (scalars(one) for one in arguments)
     if len(left) != len(right):
         raise DrawnFault(f"dot of vectors with {len(left)} and {len(right)} elements")
-    made = [scalar(binary("*", one, other, rules)) for one, other in zip(left, right, strict=True)]
-    return BUILTINS["sum"]([array(made, 1, len(made))], rules)
+    first, *others = (binary("*", one, other, rules) for one, other in zip(left, right, strict=True))
+    return reduce(lambda sofar, one: binary("+", sofar, one, rules), others, first)
 
 
 def _flipped(rows: bool, columns: bool) -> Builtin:
@@ -262,7 +268,8 @@ FURTHER: Mapping[str, Builtin] = {
     "repmat": _repeated, "eye": _unit_matrix, "true": _all_of(TRUE), "false": _all_of(FALSE),
     "deal": lambda arguments, rules: arguments[0],
     "fabs": lambda arguments, rules: double(abs(scalar(arguments[0]).value)), "labs": BUILTINS["abs"],
-    "fmod": _of_c(_remainder), "pow": _of_c(_power), "ldexp": _of_c(lambda value, bits: value * 2**bits),
+    "fmod": _of_c(_remainder), "pow": _of_c(_power),
+    "ldexp": _of_c(lambda value, bits: ldexp(value, int(bits))),
 }  # fmt: skip
 """By name."""
 

@@ -22,14 +22,14 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
-from rovercheck.checker.drawn.interpret.wake import FUNCTIONS, outputs_of, woken
+from rovercheck.checker.drawn.interpret.wake import outputs_of, woken
 from rovercheck.checker.drawn.merges import UNSAID, merged
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
 from rovercheck.checker.drawn.resets import begins_anew, resets_refused
 from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
-from rovercheck.checker.drawn.wiring import DELAYS, SystemWiring, number_of, wired
+from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, SystemWiring, number_of, wired
 
 
 class SharedParts(Protocol):
@@ -117,7 +117,7 @@ class SystemAtWork:
             node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
         elif block.kind in DELAYS:
             node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
-        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", "Merge", *_CONTROLS):
+        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", "Merge", *CONTROL):
             raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
 
@@ -174,7 +174,7 @@ class SystemAtWork:
         for node in self._nodes:
             for one in node.functions:
                 one.initialize()
-            if node.chart is not None and node.chart.chart.drawn.kind not in FUNCTIONS:
+            if node.chart is not None and not node.chart.chart.drawn.is_function:
                 if node.chart.chart.drawn.at_initialization:
                     self._feed_at_rest(node, node.chart, inputs)
                 node.chart.initialize()
@@ -222,7 +222,7 @@ class SystemAtWork:
             return [inputs[number_of(block) - 1]]
         if node.memory is not None:
             return [self._remembered(node)]
-        if block.kind == "Outport" or block.kind in _CONTROLS:
+        if block.kind == "Outport" or block.kind in CONTROL:
             return []
         values = self._values(node)
         if node.chart is not None:
@@ -384,9 +384,6 @@ def _port(node: BlockAtWork) -> tuple[str, int]:
     port = node.inputs[0]
     assert port is not None
     return port
-
-
-_CONTROLS = ("EnablePort", "TriggerPort", "ActionPort")
 
 
 def _edge(kind: str, before: float, now: float) -> bool:

@@ -5,13 +5,10 @@ from collections.abc import Sequence
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.values import MatlabValue
 
-FUNCTIONS = ("MATLAB function", "truth table")
-"""Charts that are one function each, without states."""
-
 
 def woken(machine: ChartMachine, events: Sequence[str] | None) -> list[MatlabValue]:
     """Wake up a chart by some events, or ``None``: by the step; the answer are its outputs."""
-    if machine.chart.drawn.kind in FUNCTIONS:
+    if machine.chart.drawn.is_function:
         for _ in [""] if events is None else events:
             machine.run_block()
     elif events is None:
@@ -28,4 +25,4 @@ def outputs_of(machine: ChartMachine) -> list[MatlabValue]:
     return [*found, *machine.output_events.signals()]
 
 
-__all__ = ["FUNCTIONS", "outputs_of", "woken"]
+__all__ = ["outputs_of", "woken"]

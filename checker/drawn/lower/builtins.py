@@ -183,15 +183,20 @@ def _complement(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> 
     return complement(single_of(arguments[0]))
 
 
+def real_of(value: Symbolic) -> Sequence[SymbolicScalar]:
+    """What sums and products are made of: real numbers stay as they are, others are double."""
+    return [one if one.kind in REALS else SymbolicScalar("double", as_number(one)) for one in flat(value)]
+
+
 def _sum(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
-    every = flat(arguments[0])
+    every = real_of(arguments[0])
     first = scalar_of("+", every[0], number("double", 0), rules) if every else number("double", 0)
     return reduce(lambda sofar, one: scalar_of("+", sofar, one, rules), every[1:], first)
 
 
 def _product(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
     return reduce(
-        lambda sofar, one: scalar_of("*", sofar, one, rules), flat(arguments[0]), number("double", 1)
+        lambda sofar, one: scalar_of("*", sofar, one, rules), real_of(arguments[0]), number("double", 1)
     )
 
 

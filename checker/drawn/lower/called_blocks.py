@@ -8,7 +8,7 @@ from typing import Protocol
 
 from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of
 from rovercheck.checker.drawn.faults import DrawnFault
-from rovercheck.checker.drawn.lower.chart_blocks import FUNCTIONS, ChartBlockWriter
+from rovercheck.checker.drawn.lower.chart_blocks import ChartBlockWriter
 from rovercheck.checker.drawn.lower.chart_functions import ExecutedFunction
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramPart, ProgramWriter
@@ -168,7 +168,7 @@ class CalledBlockWriter(ChartBlockWriter):
         made = self._writer(chart, view, writer)
         node.outputs = self._outputs_of(made)
         feed = partial(self._feed, made, chart, node)
-        if chart.drawn.kind in FUNCTIONS:
+        if chart.drawn.is_function:
 
             def run() -> None:
                 feed()

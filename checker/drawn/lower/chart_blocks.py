@@ -17,9 +17,6 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of
 from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
 from rovercheck.spec_model.lang.system import Program
 
-FUNCTIONS = ("MATLAB function", "truth table")
-"""Charts that are one function each, without states."""
-
 
 class ChartBlockWriter(TriggerWriter):
     """The charts of one system."""
@@ -38,7 +35,7 @@ class ChartBlockWriter(TriggerWriter):
         writer = ProgramWriter(name, context.most)
         made = self._writer(chart, view, writer)
         node.outputs = self._outputs_of(made)
-        if chart.drawn.kind in FUNCTIONS:
+        if chart.drawn.is_function:
             return self._function(node, made)
         others = self._call_all(node, chart, made)
         self._feed(made, chart, node)

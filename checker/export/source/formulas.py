@@ -92,7 +92,7 @@ class FormulaSource:
             case Enum() as enum:
                 return quoted(enum.member(expr.value))
             case Num(resolution, _):
-                return _number(expr.value * resolution)
+                return number_text(expr.value * resolution)
 
     def beside(self, expr: Expr, other: Expr, above: int) -> str:
         """A formula as an operand: a constant is plain beside what is none."""
@@ -143,10 +143,10 @@ class FormulaSource:
     def span(self, span: Span) -> str:
         """``3 * sec``, ``20 * ms``, ``2 * ticks``."""
         if span.unit == "ticks":
-            return f"{_number(span.amount)} * {self.word('ticks')}"
+            return f"{number_text(span.amount)} * {self.word('ticks')}"
         if span.amount % 1000 == 0:
-            return f"{_number(span.amount / 1000)} * {self.word('sec')}"
-        return f"{_number(span.amount)} * {self.word('ms')}"
+            return f"{number_text(span.amount / 1000)} * {self.word('sec')}"
+        return f"{number_text(span.amount)} * {self.word('ms')}"
 
     # --- actions -------------------------------------------------------------------------------------------
 
@@ -240,10 +240,10 @@ def _within(shown: str, level: int, above: int) -> str:
     return f"({shown})" if above > level else shown
 
 
-def _number(value: Fraction) -> str:
+def number_text(value: Fraction) -> str:
     """A number as Python has it; a fraction that no decimal is, as a text."""
     shown = show(value)
     return quoted(shown) if "/" in shown else shown
 
 
-__all__ = ["FormulaSource"]
+__all__ = ["FormulaSource", "number_text"]

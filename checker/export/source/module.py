@@ -3,17 +3,16 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 from rovercheck import language
 from rovercheck.checker.drawn.charts.chart import ChartLabels
 from rovercheck.checker.export.source.charts import ChartSource
-from rovercheck.checker.export.source.formulas import FormulaSource
+from rovercheck.checker.export.source.formulas import FormulaSource, number_text
 from rovercheck.checker.export.source.layout import Keyword, Source, call, laid_out, listed, quoted
 from rovercheck.checker.export.source.names import SourceNames
 from rovercheck.spec_model.lang.action import expressions
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, Path, parts
-from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, show
+from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, boolean
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Named, Var
 from rovercheck.spec_model.lang.system import Note, System, enabled_in
@@ -161,8 +160,7 @@ class _Module:
             case Enum() as enum:
                 return quoted(enum.member(one.init))
             case Num(resolution, _):
-                shown = show(one.init * resolution)
-                return quoted(shown) if "/" in shown else shown
+                return number_text(one.init * resolution)
 
     def _name_of(self, domain: Domain) -> Source:
         """The name of a domain that has one, or the domain itself."""
@@ -191,13 +189,13 @@ class _Module:
                     shown = f"{{{', '.join(f'{quoted(member)}: {number}' for member, number in members)}}}"
                 return call(self._source.word("enumeration"), quoted(name), shown)
             case Num(resolution, _):
-                ends = [_shown(raw * resolution) for raw in (domain.low, domain.high)]
+                ends = [number_text(raw * resolution) for raw in (domain.low, domain.high)]
                 if not domain.dense:
-                    every = [_shown(raw * resolution) for raw in domain.values]
+                    every = [number_text(raw * resolution) for raw in domain.values]
                     return call(self._source.word("chosen"), listed(every))
                 if resolution == 1:
                     return call(self._source.word("integer"), *ends)
-                return call(self._source.word("fixed"), *ends, _shown(resolution))
+                return call(self._source.word("fixed"), *ends, number_text(resolution))
         raise AssertionError(domain)
 
     def _constants(self, formulas: Sequence[Expr]) -> Iterator[str]:
@@ -297,11 +295,6 @@ def _outside_names(formulas: Sequence[Expr]) -> set[str]:
         elif not isinstance(one, Named):
             waiting += children(one)
     return found
-
-
-def _shown(value: Fraction) -> str:
-    shown = show(value)
-    return quoted(shown) if "/" in shown else shown
 
 
 def _docstring(text: str) -> str:

@@ -197,7 +197,7 @@ class XstateContent:
             return None
         if "params" in inner and set(inner) <= {"type", "params"}:
             inner = inner["params"].object or {}
-        rest = ", ".join(f"{key}: {shown_value(one)}" for key, one in inner.items() if key != "type")
+        rest = ", ".join(f"{key}: {_shown(one)}" for key, one in inner.items() if key != "type")
         return f"{kind}({rest[:200]})" if rest else kind
 
     def actions(self, value: JsonValue | None) -> tuple[Executable, ...]:
@@ -254,7 +254,7 @@ def _read(value: ScxmlExpression) -> Iterator[str]:
             yield from _read(one)
 
 
-def shown_value(value: JsonValue) -> str:
+def _shown(value: JsonValue) -> str:
     """A value in a few letters."""
     if value.object is not None or value.list is not None:
         return "{}" if value.object is not None else "[]"
@@ -263,4 +263,4 @@ def shown_value(value: JsonValue) -> str:
     return str(value.plain)[:40]
 
 
-__all__ = ["LOST", "XstateContent", "shown_value"]
+__all__ = ["LOST", "XstateContent"]

@@ -5,9 +5,7 @@ from collections.abc import Sequence
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.scxml.records import MachineState, MachineTransition, StateMachine
 from rovercheck.checker.scxml.xstate.interpret import XstateRunner
-
-NESTED = "an event is raised while another one waits, which XState 4 takes before it"
-GOES_ON = "the machine ends while a raised event waits, which XState 4 takes all the same"
+from rovercheck.checker.scxml.xstate.version_4 import GOES_ON, NESTED
 
 
 class Xstate4Runner(XstateRunner):

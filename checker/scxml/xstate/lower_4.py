@@ -8,7 +8,7 @@ from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.scxml.records import MachineState, MachineTransition, StateMachine
 from rovercheck.checker.scxml.view import NONE, MachineView
 from rovercheck.checker.scxml.xstate.lower import XstateWriter
-from rovercheck.checker.scxml.xstate.version_4 import chain_to
+from rovercheck.checker.scxml.xstate.version_4 import GOES_ON, NESTED, chain_to
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of
 
@@ -45,8 +45,7 @@ class Xstate4Writer(XstateWriter):
     def _microstep(self) -> None:
         self.writer.assign(self.waits, self.internal[0] != NONE)
         super()._microstep()
-        goes_on = "the machine ends while a raised event waits, which XState 4 takes all the same"
-        self.writer.choose(all_of(self.ended, self.waits), partial(self.writer.fault, goes_on))
+        self.writer.choose(all_of(self.ended, self.waits), partial(self.writer.fault, GOES_ON))
         self.writer.assign(self.waits, FALSE)
 
     def _plans(self, one: MachineTransition) -> None:
@@ -71,8 +70,7 @@ class Xstate4Writer(XstateWriter):
 
     def _push(self, queue: Sequence[Var], event: str) -> None:
         if queue is self.internal and event in self.view.event_names:
-            nested = "an event is raised while another one waits, which XState 4 takes before it"
-            self.writer.choose(self.waits, partial(self.writer.fault, nested))
+            self.writer.choose(self.waits, partial(self.writer.fault, NESTED))
         super()._push(queue, event)
 
 

@@ -9,7 +9,7 @@ from rovercheck.checker.io.bounded import bounded_bytes
 from rovercheck.checker.io.json_lines import JsonValue, parsed_json
 from rovercheck.checker.scxml.records import OTHER, MachineState, StateKind, StateMachine
 from rovercheck.checker.scxml.xstate.bindings import Bindings, bindings_path, read_bindings
-from rovercheck.checker.scxml.xstate.content import XstateContent, shown_value
+from rovercheck.checker.scxml.xstate.content import XstateContent
 from rovercheck.checker.scxml.xstate.targets import TransitionReader, in_order_of_javascript
 from rovercheck.checker.scxml.xstate.version_4 import check_version_4
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
@@ -249,4 +249,4 @@ def _offered(descriptor: str) -> str:
     return f"{descriptor[:-1]}{OTHER}" if descriptor.endswith(".*") else descriptor
 
 
-__all__ = ["read_xstate", "shown_value", "xstate_machine_of"]
+__all__ = ["read_xstate", "xstate_machine_of"]

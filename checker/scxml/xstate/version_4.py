@@ -9,6 +9,9 @@ from rovercheck.checker.scxml.xstate.content import XstateContent
 
 ANY = "any event"
 """What a region answers that answers an event at all."""
+NESTED = "an event is raised while another one waits, which XState 4 takes before it"
+GOES_ON = "the machine ends while a raised event waits, which XState 4 takes all the same"
+"""What a run may meet that has no plain meaning."""
 GO_ON = "Write the machine for XState 5, or another transition"
 
 
@@ -138,4 +141,4 @@ def _at(line: int) -> JsonValue:
     return JsonValue(line)
 
 
-__all__ = ["chain_to", "check_version_4"]
+__all__ = ["GOES_ON", "NESTED", "chain_to", "check_version_4"]
