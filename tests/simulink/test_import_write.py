@@ -19,8 +19,11 @@ from rovercheck.checker.export.source.names import SourceNames
 from rovercheck.checker.export.source.properties import WrittenNames, rewritten
 from rovercheck.checker.model.drawn import read_simulink
 from rovercheck.checker.model.load import load
-from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart, State
+from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import var
 from tests.drawn.test_simulink_functions import counting
 from tests.drawn.test_simulink_functions import written as simulink_function
 
@@ -39,7 +42,7 @@ WRITTEN = (
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Without the search for a proof, which the tests of it make."""
-    monkeypatch.setattr(verb, "equality_of", lambda written, drawn: Equality(how="not asked here"))
+    monkeypatch.setattr(verb, "equality_of", lambda written, drawn, outputs: Equality(how="not asked here"))
     yield
 
 
@@ -153,7 +156,22 @@ def test_a_difference_of_states_alone_is_found() -> None:
     idle, cooking, paused = chart.root.states
     again = replace(chart.root, states=(idle, cooking, replace(paused, transitions=())))
     changed = replace(system, components=(chart.with_root(again),))
-    assert "of a random run, in Oven" in equality_of(changed, lowered.system, 5).difference
+    assert "of a random run, in Oven" in equality_of(changed, lowered.system, {}, 5).difference
+
+
+def test_a_proof_speaks_of_all_data_and_outputs_or_it_is_none() -> None:
+    """It was called proved where data had no counterpart, or an output was a formula, too."""
+    lowered = read_simulink(MICROWAVE).lowered
+    system = charts_of_model(lowered, MICROWAVE.name).model.system
+    assert equality_of(system, lowered.system, {}).proved
+    new = var("new", integer(0, 3))
+    other = replace(lowered.system, components=(*lowered.system.components, Block("B", [assign(new, 1)])))
+    assert equality_of(system, other, {}).how == (
+        "no proof speaks of new, which the written model has otherwise"
+    )
+    bell, heating = (lowered.outputs[name] for name in ("bell", "heating"))
+    found = equality_of(system, lowered.system, {"bell": (bell & heating, bell)})
+    assert "of a random run, in bell" in found.difference
 
 
 def test_other_options_are_refused_beside_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

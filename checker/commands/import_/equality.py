@@ -1,6 +1,6 @@
 """Whether a written model does in every run what the drawn one does: proved, if that is found soon."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from random import Random
@@ -16,6 +16,7 @@ from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import Domain, Enum, Num
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, all_of
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.lower import lower
@@ -39,12 +40,25 @@ class Equality:
     difference: str = ""
 
 
-def equality_of(written: System, drawn: System, seconds: float = SECONDS) -> Equality:
-    """Decide whether two systems of the same inputs give all data and active states of one name alike."""
+Pair = tuple[Expr, Expr]
+"""The same thing in the written and in the drawn model."""
+
+
+def equality_of(
+    written: System, drawn: System, outputs: Mapping[str, Pair], seconds: float = SECONDS
+) -> Equality:
+    """Decide whether two systems of the same inputs give all data, active states and ``outputs`` alike.
+
+    What is hidden, as counters of steps, is no part of what is compared.
+    """
     try:
-        both, same, pairs = _beside(written, lower(drawn))
+        both, same, pairs, left = _beside(written, lower(drawn), outputs)
         if difference := _in_runs(both, pairs):
             return Equality(difference=difference)
+        if left:
+            return Equality(
+                how=f"no proof speaks of {', '.join(left)}, which the written model has otherwise"
+            )
         claim = always("EQUAL", "Both models do the same.", that=same, covers=["EQUAL"], on=both.name)
         search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
         [found] = results([claim], {both.name: both}, search, quiet=True)
@@ -58,7 +72,7 @@ def equality_of(written: System, drawn: System, seconds: float = SECONDS) -> Equ
     return Equality(how="that it does in every run was not decided in the time for it")
 
 
-def _in_runs(both: System, pairs: Mapping[str, tuple[Var, Var]]) -> str:
+def _in_runs(both: System, pairs: Mapping[str, Pair]) -> str:
     """A difference in runs of random values, and of those on both sides of each limit, held for a while."""
     random = Random(1)
     near = constants_of(both)
@@ -78,7 +92,7 @@ def _in_runs(both: System, pairs: Mapping[str, tuple[Var, Var]]) -> str:
             except ModelError:  # a datum has left its domain, which a check tells
                 break
             at = run.valuation()
-            wrong = [name for name, (one, other) in pairs.items() if at[one.name] != at[other.name]]
+            wrong = [name for name, (one, other) in pairs.items() if not evaluate(one == other, at)]
             if wrong:
                 return f"in tick {tick} of a random run, in {', '.join(wrong)}"
     return ""
@@ -89,22 +103,35 @@ def _raw(var: Var, value: float) -> int:
     return round(Fraction(str(value)) / resolution)
 
 
-def _beside(written: System, drawn: TransitionSystem) -> tuple[System, Expr, Mapping[str, tuple[Var, Var]]]:
-    """One system that does both, the condition that both have done the same, and what it compares by name."""
+def _beside(
+    written: System, drawn: TransitionSystem, outputs: Mapping[str, Pair]
+) -> tuple[System, Expr, Mapping[str, Pair], Sequence[str]]:
+    """One system that does both, the condition that both have done the same, what it compares by name, and
+    what it leaves out.
+    """
     inputs = {one.name for one in drawn.inputs}
     renamed = {one.name: _apart(one) for one in (*drawn.variables, *drawn.temps)}
     temporaries = [renamed[one.name] for one in drawn.temps]
     step = tuple(_renamed_actions(drawn.step, renamed))
     own = {one.name: one for one in written.written.values()}
     own |= {place.name: place for chart in written.charts for place in chart.locations}
-    pairs = {
-        one.name: (own[one.name], renamed[one.name])
-        for one in drawn.variables
-        if one.name in own and own[one.name].sort == one.sort and one.name not in inputs
+    wanted: dict[str, tuple[Expr | None, Expr]] = {
+        one.name: (own.get(one.name), renamed[one.name]) for one in drawn.variables if one.name not in inputs
     }
+    wanted |= {name: (one, _renamed(other, renamed)) for name, (one, other) in outputs.items()}
+    pairs = {
+        name: (one, other)
+        for name, (one, other) in wanted.items() if one is not None and _comparable(one, other)
+    }  # fmt: skip
+    hidden = {one.name for one in drawn.variables if one.hidden}
     block = Block("As drawn", step, temporaries=temporaries)
     both = in_order("both", *written.components, block, tick_ms=written.tick_ms, step_ms=written.step_ms)
-    return both, all_of(*(one == other for one, other in pairs.values())), pairs
+    same = all_of(*(one == other for one, other in pairs.values()))
+    return both, same, pairs, sorted(wanted.keys() - pairs.keys() - hidden)
+
+
+def _comparable(one: Expr, other: Expr) -> bool:
+    return one.sort == other.sort or (isinstance(one.sort, Num) and isinstance(other.sort, Num))
 
 
 def _apart(one: Var) -> Var:

@@ -31,6 +31,8 @@ class LoweringReport:
     runs: int = 0
     steps: int = 0
     difference: str = ""
+    alike: bool = True
+    """Whether both readings gave the same; a difference by rounding is a note."""
 
 
 def lowering_of(path: Path, model: DrawnModel) -> LoweringReport:
@@ -50,6 +52,7 @@ def lowering_of(path: Path, model: DrawnModel) -> LoweringReport:
     return LoweringReport(
         inputs=len(system.inputs), variables=len(system.variables), notes=notes,
         runs=found.runs, steps=found.steps, difference="" if difference is None or note else str(difference),
+        alike=difference is None,
     )  # fmt: skip
 
 

@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from rovercheck.checker.commands.import_.lines import say
 from rovercheck.checker.commands.import_.machine_document import LoweredMachineReport, machine_document
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.output import counted, out, text_width, write
-from rovercheck.checker.commands.shared.text_wrap import filled
+from rovercheck.checker.commands.shared.output import counted, out, write
 from rovercheck.checker.drawn.lower.domains import domains_path, lines_of, read_domains
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.machine import compared, machine_in, machine_model
@@ -31,7 +31,7 @@ def import_machine(path: Path, others: bool, *, as_json: bool) -> Exit:
         print(json_text(machine_document(machine, report, code), ascii=True))
         return code
     for line in (*_head(machine), "", *_told(path, report)):
-        _say(line)
+        say(line)
     return code
 
 
@@ -101,11 +101,6 @@ def _file(path: Path, lines: Sequence[str]) -> Iterator[str]:
     yield ""
     yield "[domains]"
     yield from lines
-
-
-def _say(text: str) -> None:
-    indent = " " * (len(text) - len(text.lstrip()))
-    out.print(filled(" ".join(text.split()), text_width(), indent, f"{indent}  "), markup=False)
 
 
 __all__ = ["import_machine", "propose_ranges"]

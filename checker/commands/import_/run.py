@@ -142,7 +142,7 @@ def _lowered(path: Path, found: LoweringReport | None) -> Iterator[str]:
             "✗ The two ways in which it is read differ, which is an error of rovercheck: "
             f"{found.difference}. Please report it.", "  ",
         )  # fmt: skip
-    elif not any(note.startswith(("Real numbers are exact", "In a random run")) for note in found.notes):
+    elif found.alike:
         yield _wrapped(f"in {found.steps:,} steps of random runs the direct interpreter gives the same", "  ")
 
 

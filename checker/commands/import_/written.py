@@ -10,9 +10,10 @@ from keyword import iskeyword
 from pathlib import Path
 
 from rovercheck.checker.commands.import_.equality import Equality, equality_of
+from rovercheck.checker.commands.import_.lines import say
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.output import counted, err, out, text_width
-from rovercheck.checker.commands.shared.text_wrap import filled, whole
+from rovercheck.checker.commands.shared.output import counted, err
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.drawn.charts.system import DrawnCharts, charts_of_model
 from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -71,7 +72,7 @@ def write_model(path: Path, beside: Sequence[Path], folder: Path) -> Exit:
             (place / name).write_text(text, encoding="utf-8")
         readings, equal = compared(place, drawn.model, lowered, said.step)
     for one in written.told:
-        _say(one)
+        say(one)
     _tell(folder, written, readings, equal)
     return Exit.AS_EXPECTED
 
@@ -129,7 +130,8 @@ def compared(place: Path, drawn: LoweredModel, lowered: LoweredModel, step: str)
     difference = str(readings.difference or "")
     if readings.difference is not None and lowered.real and not readings.difference.said:
         difference = ""  # real numbers are exact here, which is said of the drawn model, too
-    equal = Equality() if difference else equality_of(system, lowered.system)
+    ends = {name: (drawn.outputs[name], one) for name, one in lowered.outputs.items()}
+    equal = Equality() if difference else equality_of(system, lowered.system, ends)
     if difference or equal.difference:
         raise ModelError(
             f"{drawn.model.name} is not written: what was to be written does otherwise than what is drawn, "
@@ -186,17 +188,12 @@ def _tell(folder: Path, written: WrittenModel, readings: Readings, equal: Equali
     for name in written.files:
         err.print(f"wrote {whole(shown(folder / name))}", markup=False)
     if equal.proved:
-        _say(f"✓ It does what is drawn: proved, {equal.how}.")
+        say(f"✓ It does what is drawn: proved, {equal.how}.")
     else:
-        _say(f"• It does what is drawn in random runs; {equal.how}.")
+        say(f"• It does what is drawn in random runs; {equal.how}.")
     steps = counted(readings.steps, "step", "steps")
-    _say(f"  In {steps} of random runs the direct interpreter gives the same.")
-    _say(f"Check it: rovercheck check --model {shown(folder)}")
-
-
-def _say(text: str) -> None:
-    indent = " " * (len(text) - len(text.lstrip()))
-    out.print(filled(" ".join(text.split()), text_width(), indent, f"{indent}  "), markup=False)
+    say(f"  In {steps} of random runs the direct interpreter gives the same.")
+    say(f"Check it: rovercheck check --model {shown(folder)}")
 
 
 __all__ = ["WrittenModel", "compared", "write_model", "written_model"]
