@@ -45,7 +45,7 @@ T = TypeVar("T")
 class Specialiser:
     """Replaces variables by constants in formulas, charts and systems; what does not change stays itself.
 
-    A variable may also be replaced by one of its own name, in another domain, wherever it is read or written.
+    A variable may also be replaced by another, of another domain or name, wherever it is read or written.
     """
 
     def __init__(self, values: Mapping[str, Const | Var]) -> None:

@@ -1,6 +1,6 @@
 """Whether a written model does in every run what the drawn one does: proved, if that is found soon."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from random import Random
@@ -12,14 +12,14 @@ from rovercheck.checker.model.two_readings import interesting
 from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, StoredInvariant, Violated
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import always
-from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import Domain, Enum, Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, all_of
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
 
 SECONDS = 20.0
@@ -109,22 +109,21 @@ def _beside(
     """One system that does both, the condition that both have done the same, what it compares by name, and
     what it leaves out.
     """
-    inputs = {one.name for one in drawn.inputs}
     renamed = {one.name: _apart(one) for one in (*drawn.variables, *drawn.temps)}
     temporaries = [renamed[one.name] for one in drawn.temps]
-    step = tuple(_renamed_actions(drawn.step, renamed))
+    rename = Specialiser(renamed)
     own = {one.name: one for one in written.written.values()}
     own |= {place.name: place for chart in written.charts for place in chart.locations}
     wanted: dict[str, tuple[Expr | None, Expr]] = {
-        one.name: (own.get(one.name), renamed[one.name]) for one in drawn.variables if one.name not in inputs
+        one.name: (own.get(one.name), renamed[one.name]) for one in drawn.variables
     }
-    wanted |= {name: (one, _renamed(other, renamed)) for name, (one, other) in outputs.items()}
+    wanted |= {name: (one, rename.expr(other)) for name, (one, other) in outputs.items()}
     pairs = {
         name: (one, other)
         for name, (one, other) in wanted.items() if one is not None and _comparable(one, other)
     }  # fmt: skip
     hidden = {one.name for one in drawn.variables if one.hidden}
-    block = Block("As drawn", step, temporaries=temporaries)
+    block = Block("As drawn", rename.actions(drawn.step), temporaries=temporaries)
     both = in_order("both", *written.components, block, tick_ms=written.tick_ms, step_ms=written.step_ms)
     same = all_of(*(one == other for one, other in pairs.values()))
     return both, same, pairs, sorted(wanted.keys() - pairs.keys() - hidden)
@@ -140,31 +139,6 @@ def _apart(one: Var) -> Var:
     if isinstance(one.sort, Enum) and one.sort.name == "Entered":
         return Var(name, Domain(replace(one.sort, name=name), one.domain.values), one.init)
     return replace(one, name=name)
-
-
-def _renamed_actions(actions: "tuple[Action, ...]", names: Mapping[str, Var]) -> Iterator[Action]:
-    for one in actions:
-        match one:
-            case Assign(var, value):
-                yield Assign(names.get(var.name, var), _renamed(value, names))
-            case If(condition, then, otherwise):
-                yield If(
-                    _renamed(condition, names), tuple(_renamed_actions(then, names)),
-                    tuple(_renamed_actions(otherwise, names)),
-                )  # fmt: skip
-
-
-def _renamed(expr: Expr, names: Mapping[str, Var]) -> Expr:
-    match expr:
-        case Var(name):
-            return names.get(name, expr)
-        case Named(name, body):
-            return _renamed(body, names)
-        case Temporal(when, arg, span, strict) if arg is not None:
-            return Temporal(when, _renamed(arg, names), span, strict)
-        case Apply(op, args, sort):
-            return Apply(op, tuple(_renamed(one, names) for one in args), sort)
-    return expr
 
 
 __all__ = ["Equality", "equality_of"]
