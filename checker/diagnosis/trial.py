@@ -91,7 +91,7 @@ class TrialBench:
         And, by their numbers, what it gets wrong in these runs; a run in which a number has no meaning to it
         stays as it is.
         """
-        every = [n for n, run in enumerate(self.runs) if self._end(n) < len(run)]
+        every = [n for n in range(len(self.runs)) if not self.decided(n)]
         if not every:
             return self, {}
         ends, found = dict(self.ends), dict[int, Wrong]()
@@ -134,9 +134,9 @@ class TrialBench:
         And whether the row is wrong, and not just undecided, too.
         """
         for number, run in enumerate(self.runs):
-            end = self._end(number)
-            if end == len(run):
+            if self.decided(number):
                 continue
+            end = self._end(number)
             try:
                 rows = self._whole.mismatches(cone, number, parameter)
                 row, mismatch = next(((r, m) for r, m in rows if r >= end or m is None), (len(run), None))
@@ -144,6 +144,10 @@ class TrialBench:
                 continue
             if row >= end:
                 yield number, row, mismatch is not None
+
+    def decided(self, number: int) -> bool:
+        """Whether the part, with what was taken so far, decides a run to its end."""
+        return self._end(number) == len(self.runs[number])
 
     def _end(self, number: int) -> int:
         run = self.runs[number]
