@@ -138,6 +138,16 @@ class ChartMemory:
             return array([one] * (size[0] * size[1]), *size)
         return made
 
+    def receive(self, ssid: int, value: MatlabValue) -> None:
+        """A signal: an inherited size is that of what comes, and a vector fits in either direction."""
+        size, came = shape(self._initial[ssid]), shape(value)
+        if inherits_size(self._data[ssid]) and not isinstance(value, Structure):
+            kind = self._kinds[ssid] or value.kind
+            self._initial[ssid] = self.types.initial("double" if kind == "literal" else kind, *came)
+        elif came == size[::-1] != size and 1 in size:
+            value = array(scalars(value), *size)
+        self.write(ssid, value)
+
     def write(self, ssid: int, value: MatlabValue) -> None:
         """A new value, in the type of the datum; one without a type takes that of its first value."""
         kind = self._kinds[ssid]
@@ -175,6 +185,11 @@ def _initial_of(one: DrawnData, chart: ParsedChart, named: Mapping[str, str]) ->
             f"`{one.name} = ...`"
         )
     return named[one.name]
+
+
+def inherits_size(one: DrawnData) -> bool:
+    """Whether the size of a datum is that of its signal."""
+    return one.size.strip() in ("", "-1")
 
 
 def datum_of(node: StateNode, name: str) -> DrawnData | None:

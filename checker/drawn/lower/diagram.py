@@ -53,6 +53,7 @@ def _lowered(
                     raise NotLowered(str(error)) from error
                 most = MOST_STATEMENTS
             continue
+        table.settle()
         _refuse_too_fine(table)
         if not table.changed:
             return found
