@@ -162,9 +162,9 @@ def _atomic_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
 
 
 CALLS = (
-    ByHand("calls", ("function-call output events",), _calls, _calls_by_hand),
-    ByHand("function", ("Simulink functions",), _function, _function_by_hand),
-    ByHand("atomic", ("atomic subcharts", "what is commented out"), _atomic, _atomic_by_hand),
+    ByHand("calls", _calls, _calls_by_hand),
+    ByHand("function", _function, _function_by_hand),
+    ByHand("atomic", _atomic, _atomic_by_hand),
 )
 
 __all__ = ["CALLS"]
