@@ -22,19 +22,24 @@ _LEVEL = """classdef Level < Simulink.IntEnumType % of a tank
   end
 end
 """
+_MODE = "classdef Mode < int32\nenumeration\nON (3)\nOFF (0)\nend\nend\n"
+_PACE = "classdef Pace < Simulink.IntEnumType\nenumeration\nSLOW (4)\nFAST (7)\nend\nend\n"
 
 
 def _members() -> WrittenModel:
-    """Enumerations of a class and of a dictionary, whose members are written with and without their type."""
+    """Enumerations of classes and of a dictionary, with every kind of default member."""
     model = WrittenModel("one", step="0.1", dictionary="types.sldd")
     block, chart = model.root.chart("C")
     chart.data("u", "input", "int8")
     chart.data("level", "output", "Enum: Level")
     chart.data("n", "output", "uint8")
     chart.data("gear", "local", "Enum: Gear", "Gear.R")
+    chart.data("mode", "local", "Enum: Mode")
+    chart.data("pace", "local", "Enum: Pace")
     chosen = "if u > 1, level = HIGH; elseif u == 0, level = Level.LOW; end"
     a = chart.state(f"A\ndu: {chosen}\nif gear == N, n = uint8(7); end")
-    said = "n = uint8(gear) + uint8(level == Level.HIGH) * 10;"
+    said = "n = uint8(gear) + uint8(level == Level.HIGH) * 10 + uint8(mode == Mode.OFF) * 20;"
+    said += " n = n + uint8(pace) * 10;"
     b = chart.state(f"B\nen: gear = Gear.N; {said}\nex: gear = D;")
     chart.transition(None, a)
     chart.transition(a, b, "[level ~= Level.MIDDLE && u == 1]")
@@ -51,7 +56,7 @@ def _members_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
         if not state or (state == "B" and u > 0):
             state = "A"
         elif state == "A" and level != 5 and u == 1:
-            state, n = "B", 3 + 10 * (level == -1)
+            state, n = "B", 3 + 10 * (level == -1) + 20 + 40
         elif state == "A":
             level = -1 if u > 1 else 2 if u == 0 else level
         yield level, n
@@ -59,7 +64,8 @@ def _members_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
 
 def _levels(folder: Path) -> Sequence[Path]:
     dictionary(folder / "types.sldd", {"Gear": {"R": 1, "N": 3, "D": 0}})
-    (folder / "Level.m").write_text(_LEVEL, encoding="utf-8")
+    for name, text in {"Level": _LEVEL, "Mode": _MODE, "Pace": _PACE}.items():
+        (folder / f"{name}.m").write_text(text, encoding="utf-8")
     return ()
 
 

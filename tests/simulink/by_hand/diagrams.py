@@ -99,7 +99,8 @@ def _memories() -> WrittenModel:
     """Loops through delays, which have the type of what comes in, before what feeds them in the file."""
     d = Diagram()
     wide = d.root.block("Sum", "wide", {"in": 2, "out": 1}, {}, Inputs="+-")
-    delay = d.root.block("UnitDelay", "delay", {"in": 1, "out": 1}, {}, InitialCondition="int8(5)")
+    begins = {"InitialCondition": "int8(5)", "Priority": "1"}
+    delay = d.root.block("UnitDelay", "delay", {"in": 1, "out": 1}, {}, **begins)
     memory = d.root.block("Memory", "memory", {"in": 1, "out": 1}, {})
     for source, target in ((delay, f"{wide}/1"), (memory, f"{wide}/2"), (wide, delay), (d.u, memory)):
         d.root.line(source, target)

@@ -209,6 +209,29 @@ def _table_of_c_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
         yield (1 + (2 * u if u else 0) if number else 0,)
 
 
+def _table_flow(c: WrittenChart) -> None:
+    """A truth table beside which the flow chart stands that Stateflow made of it."""
+    c.language = "C"
+    table = c.truth_table("r = f(v)", WrittenTable(["v > 2"], ["T 1", "- 2"], ["r = 3;", "r = v * 2;"]))
+    c.data("v", "function input", "int8", holder=table)
+    c.data("r", "function output", "int8", holder=table)
+    start, first, end = c.junction(table), c.junction(table), c.junction(table)
+    made = [
+        c.transition(None, start, holder=table),
+        c.transition(start, first, "[v > 2]{r = 3;}", 1, holder=table),
+        c.transition(start, end, "{r = v * 2;}", 2, holder=table),
+        c.transition(first, end, holder=table),
+    ]
+    for one in made:
+        one.inside = {"autogen": {"isAutoCreated": 1}}
+    c.transition(None, c.state("A\nen: t = 0;\ndu: t = f(u) + 1;"))
+
+
+def _table_flow_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
+    for number, u in enumerate(given):
+        yield (1 + (3 if u > 2 else 2 * u) if number else 0,)
+
+
 def _table_block() -> WrittenModel:
     """A truth table as a block, and the table of a state machine, which is read as a chart."""
     model = WrittenModel("one", step="0.1")
@@ -337,6 +360,7 @@ VALUES = (
     ByHand("table", one_chart(_table), _table_by_hand, (0, 1, 2, 3)),
     ByHand("table_made", one_chart(lambda c: _table(c, made=True)), _table_by_hand, (0, 1, 2, 3)),
     ByHand("table_of_c", one_chart(_table_of_c), _table_of_c_by_hand, (0, 1, 2, 3, 4)),
+    ByHand("table_flow", one_chart(_table_flow), _table_flow_by_hand, (0, 1, 2, 3, 4)),
     ByHand("table_block", _table_block, _table_block_by_hand),
     ByHand("reaching", one_chart(_reaching, {"t": "int16"}), _reaching_by_hand, (-3, 0, 2, 9)),
     ByHand("counted_edges", _counted_edges, _counted_edges_by_hand, (-2, -1, -1, 0, 1, 2, 3)),
