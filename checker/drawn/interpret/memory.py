@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
+    LITERAL,
     TYPES,
     MatlabValue,
     NumberRules,
@@ -140,10 +141,9 @@ class ChartMemory:
 
     def receive(self, ssid: int, value: MatlabValue) -> None:
         """A signal: an inherited size is that of what comes, and a vector fits in either direction."""
-        size, came = shape(self._initial[ssid]), shape(value)
-        if inherits_size(self._data[ssid]) and not isinstance(value, Structure):
-            kind = self._kinds[ssid] or value.kind
-            self._initial[ssid] = self.types.initial("double" if kind == "literal" else kind, *came)
+        size, came, kind = shape(self._initial[ssid]), shape(value), self._kinds[ssid]
+        if kind and inherits_size(self._data[ssid]) and not isinstance(value, Structure):
+            self._initial[ssid] = self.types.initial(kind, *came)
         elif came == size[::-1] != size and 1 in size:
             value = array(scalars(value), *size)
         self.write(ssid, value)
@@ -152,8 +152,9 @@ class ChartMemory:
         """A new value, in the type of the datum; one without a type takes that of its first value."""
         kind = self._kinds[ssid]
         if not kind:
-            kind = self._kinds[ssid] = value.kind
-            kind = self._kinds[ssid] = "double" if kind == "literal" else kind
+            kind = self._kinds[ssid] = "double" if value.kind == LITERAL else value.kind
+            if inherits_size(self._data[ssid]) and not isinstance(value, Structure):
+                self._initial[ssid] = self.types.initial(kind, *shape(value))
         if isinstance(value, Structure) or kind.startswith(BUS):
             if value.kind != kind:
                 raise DrawnFault(f"{self._data[ssid].name} is of {kind}, and its value of {value.kind}")

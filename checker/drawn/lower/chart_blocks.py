@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 
-from rovercheck.checker.drawn.lower.conversions import each_converted
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramWriter
@@ -138,9 +138,7 @@ class ChartBlockWriter(TriggerWriter):
         kinds, data = self.context.table.kinds, chart.root.data.values()
         inputs = (one for one in data if one.scope == "input")
         for one, value, is_read_anew in zip(inputs, values, changes, strict=False):
-            kind = kinds.kind(one.type)
-            plain = kind and not kind.startswith("Bus: ")
-            fitted = _in_size(each_converted(value, kind, made.rules, kinds) if plain else value, one)
+            fitted = self._fitted(value, one, made.rules)
             scalars = [
                 s if is_read_anew or isinstance(s.expr, Var) else made.writer.kept(one.name, s)
                 for _, s in leaves(fitted, "")
@@ -149,6 +147,13 @@ class ChartBlockWriter(TriggerWriter):
         for one in data:
             if one.scope == "input" and one.ssid not in made.cells:
                 made.cells[one.ssid] = kinds.first_value(kinds.kind(one.type) or "double", *sizes(one.size))
+
+    def _fitted(self, value: Symbolic, one: DrawnData, rules: IntegerRules) -> Symbolic:
+        """A signal in the type of an input, and in its size."""
+        kinds = self.context.table.kinds
+        kind = kinds.kind(one.type)
+        plain = kind and not kind.startswith("Bus: ")
+        return _in_size(each_converted(value, kind, rules, kinds) if plain else value, one)
 
     @staticmethod
     def _input_events(chart: ParsedChart) -> list[tuple[str, str]]:

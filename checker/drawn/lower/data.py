@@ -57,6 +57,10 @@ class LearnedRange:
         return fixed((self.low // step) * step, -(-self.high // step) * step, step)
 
 
+class SizeLearned(Exception):
+    """A datum has another size than this attempt began with."""
+
+
 @dataclass
 class DataTable:
     """What is known of the data of a model, over all attempts to lower it.
@@ -230,4 +234,4 @@ class DataTable:
         ]
 
 
-__all__ = ["DataTable"]
+__all__ = ["DataTable", "SizeLearned"]

@@ -108,14 +108,15 @@ def _memories() -> WrittenModel:
     function.data("x", "input")
     function.data("y", "output")
     d.root.line(memory, times)
-    return d.given(wide, delay, memory, times)
+    return d.given(wide, delay, memory, times, d.add("Sum", times, times))
 
 
 def _memories_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
     delay, memory = 5, 0
     for u in given:
         wide = _wrapped(delay - memory)
-        yield wide, delay, memory, held(memory * 100, -128, 127)
+        times = held(memory * 100, -128, 127)
+        yield wide, delay, memory, times, _wrapped(2 * times)
         delay, memory = wide, u
 
 
@@ -130,22 +131,27 @@ def _vectors() -> WrittenModel:
     chart.data("v", "input", "int8", size="3")
     chart.data("y", "output", "int8", size="[1 2]")
     chart.data("m", "local", "int8", "[1 2; 3 4]", "[2 2]")
-    chart.transition(None, chart.state("A\nen, du: y(1) = v(3) + m(2, 1); y(end) = sum(v); m(2, :) = y;"))
+    chart.transition(None, chart.state("A\nen, du: y(1) = v(3, 1) + m(2, 1); y(end) = sum(v); m(2, :) = y;"))
     d.root.line(joined, block)
     ends = d.root.block("Demux", "ends", {"in": 1, "out": 2}, {}, Outputs="2")
     d.root.line(block, ends)
-    total, function = d.root.chart("F", "MATLAB Function", "function y = f(x)\ny = x(1) * 2 + x(end);\nend\n")
-    function.data("x", "input")
+    script = "function [y, z] = f(x)\ny = x(1) * 2 + x(end);\nz = [x(2) y];\nend\n"
+    total, function = d.root.chart("F", "MATLAB Function", script)
+    function.data("x", "input", "int8")
     function.data("y", "output")
+    function.data("z", "output")
     d.root.line(joined, total)
-    return d.given(apart, f"{apart}/2", ends, f"{ends}/2", total)
+    both = d.root.block("Demux", "both", {"in": 1, "out": 2}, {}, Outputs="2")
+    d.root.line(f"{total}/2", both)
+    return d.given(apart, f"{apart}/2", ends, f"{ends}/2", total, f"{both}/2")
 
 
 def _vectors_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
     before, m = 0, 3
     for u in given:
         m = before + m
-        yield before, u, m, u + 4 + before, 2 * u + before
+        last = 2 * u + before
+        yield before, u, m, u + 4 + before, last, last
         before = u
 
 
