@@ -66,6 +66,7 @@ WITHOUT_WORDS = {
     "arithmetic": "rounds a fraction, for which a chart has no word",
     "raised": "has an event to other blocks: write to a datum",
     "changes": "whether `u` has changed",
+    "own_changes": "whether `n` has changed",
     "graphical": "a path may go through junction",
     "triggered": "has 2 input events",
     "calls": "has an event to other blocks: write to a datum",

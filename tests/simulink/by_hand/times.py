@@ -267,6 +267,41 @@ def _shared_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
         yield (say.t,)
 
 
+def _own_changes(c: WrittenChart) -> None:
+    """Changes of what the chart writes itself are those from the start of one step to that of the next."""
+    c.data("n", "local", "int8", 1)
+    words = ("hasChanged(n)", "hasChangedTo(n, 2)", "hasChangedFrom(n, 2)")
+    done = " ".join(f"if {word}, {tell(number)} end" for number, word in enumerate(words, 1))
+    a = c.state(f"A\nen, du: n = mod(n + u, 4); {done}")
+    b = c.state(f"B\nen: n = int8(2);\ndu: n = int8(0); {done}")
+    c.transition(None, a)
+    c.transition(a, b, f"[hasChangedTo(n, 3)]{{{tell(4)}}}")
+    c.transition(b, a, "[u == 3]")
+
+
+def _own_changes_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
+    say, state, n, before = Told(), "", 1, 1
+
+    def changes(started: int) -> None:
+        if state and started != before:
+            say(*(d for d, true in ((1, True), (2, started == 2), (3, before == 2)) if true))
+
+    for u in given:
+        started = n
+        if state == "A" and started != before and started == 3:
+            say(4)
+            state, n = "B", 2
+        elif state == "B" and u != 3:
+            n = 0
+            changes(started)
+        else:
+            n = (n + u) % 4
+            changes(started)
+            state = "A"
+        before = started
+        yield (say.t,)
+
+
 TIMES = (
     ByHand("early", one_chart(_early), _early_by_hand),
     ByHand("sent", one_chart(_sent), _sent_by_hand),
@@ -274,6 +309,7 @@ TIMES = (
     ByHand("units", one_chart(_units), _units_by_hand, (0, 1, 2, 3, 2)),
     ByHand("seen", one_chart(_seen), _seen_by_hand),
     ByHand("shared", one_chart(_shared), _shared_by_hand, (0, 1, 1, 0, 2, 3)),
+    ByHand("own_changes", one_chart(_own_changes), _own_changes_by_hand),
     ByHand("duration", one_chart(_duration), _duration_by_hand),
     ByHand(
         "changes", one_chart(_changes), _changes_by_hand,
