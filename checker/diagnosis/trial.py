@@ -91,11 +91,8 @@ class TrialBench:
         And, by their numbers, what it gets wrong in these runs; a run in which a number has no meaning to it
         stays as it is.
         """
-        every = [n for n in range(len(self.runs)) if not self.decided(n)]
-        if not every:
-            return self, {}
         ends, found = dict(self.ends), dict[int, Wrong]()
-        for number in every:
+        for number in (n for n in range(len(self.runs)) if not self.decided(n)):
             end, wrong = len(self.runs[number]), dict[int, frozenset[tuple[str, int]]]()
             try:
                 for row, mismatch in self._whole.mismatches(cone, number, parameter):
@@ -107,7 +104,7 @@ class TrialBench:
                 continue
             if end > self._end(number):
                 ends[number], found[number] = end, wrong
-        return TrialBench(self.evidence, self.readings, ends), found
+        return (TrialBench(self.evidence, self.readings, ends) if found else self), found
 
     @cached_property
     def _whole(self) -> "TrialBench":
