@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 
+from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.actions import Assignment, ForLoop, NameDeclaration
 from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name, operands
 from rovercheck.checker.drawn.grammar.trees import expressions_of
@@ -29,9 +30,11 @@ IMPLICIT = ("enter", "en", "exit", "ex", "change", "chg")
 OUTSIDE = ("coder", "ml")
 
 
-def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) -> Iterator[DrawingNote]:
-    """A note for each text with a name that means nothing in it, once for each name."""
-    finder = _Finder(chart, {one.name: one for one in enumerations})
+def unknown_names(
+    chart: ParsedChart, enumerations: Iterable[DrawnEnumeration], free: Mapping[str, str] | None = None
+) -> Iterator[DrawingNote]:
+    """A note for each text with a name that means nothing in it, once for each name, but for what is free."""
+    finder = _Finder(chart, {one.name: one for one in enumerations}, free or {})
     for node in chart.root.every():
         if node.parent is not None:
             texts = (node.sections, node.on_events)
@@ -59,6 +62,7 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
 class _Finder:
     chart: ParsedChart
     enumerations: Mapping[str, DrawnEnumeration]
+    free: Mapping[str, str]
     members: set[str] = field(init=False)
     events: set[str] = field(init=False)
 
@@ -89,6 +93,9 @@ class _Finder:
 
     def _unknown(self, expression: Expression, known: set[str]) -> Iterator[str]:
         match expression:
+            case _ if free_name(expression, self.free):
+                for one in arguments_of(expression):
+                    yield from self._unknown(one, known)
             case Name(name):
                 if name not in known:
                     yield name

@@ -92,6 +92,9 @@ def _one_run(
             left[name] -= 1
             if left[name] < 0:
                 given[name], left[name] = random.choice(some), random.choice((0, 0, 1, 3, LONGEST))
+        given |= {
+            name: given[of] for name, of in lowered.free.items()
+        }  # the interpreter has one value of each
         run.append(dict(given))
         faults = list[str]()
         direct, other = dict[str, float](), dict[str, float]()

@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 
+from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import (
     Applied,
@@ -50,8 +51,10 @@ from rovercheck.checker.drawn.lower.symbols import (
     filled,
     folded,
     leaves,
+    matrix,
     number,
     single_of,
+    size_of,
     truth,
 )
 from rovercheck.checker.drawn.lower.times import COUNTED
@@ -88,6 +91,8 @@ class ExpressionWriter(ElementWriter):
 
     def value(self, expression: Expression, scope: TextScope) -> Symbolic:
         """The value of an expression.  Raises ``NotLowered``."""
+        if free := self._free(expression, scope):
+            return self._any_value(free, expression, scope)
         match expression:
             case Number(value, kind):
                 return number(self._kind(value.denominator == 1, kind, scope), value)
@@ -117,6 +122,27 @@ class ExpressionWriter(ElementWriter):
             case TextLiteral(text):
                 raise NotLowered(f"the text {text!r} has no value here")
         raise NotLowered("it has no value")
+
+    def _free(self, expression: Expression, scope: TextScope) -> str:
+        """The name under which the value of an expression is free; empty if it is not."""
+        name = free_name(expression, self.table.free_texts)
+        return "" if name in self.table.free and self._is_own(name, scope) else name
+
+    def _is_own(self, name: str, scope: TextScope) -> bool:
+        """Whether a name is that of a datum or a function of the chart."""
+        own = name in scope.script or function_in(scope.node, name) is not None
+        return own or self.is_datum(name, scope)
+
+    def _any_value(self, free: str, expression: Expression, scope: TextScope) -> Symbolic:
+        """Any value wherever the expression stands, a function of matrices one for each element."""
+        if self._does(expression, scope):
+            raise NotLowered(f"free: {free} calls functions of the chart, which may do more than give values")
+        self.table.free_met.add(free)
+        given = [self.value(one, scope) for one in arguments_of(expression)]
+        kind = "single" if any(one.kind == "single" for one in given) else "double"
+        rows, columns = max(map(size_of, given), default=(1, 1), key=lambda size: size[0] * size[1])
+        value = SymbolicScalar(kind, self.table.free[free])
+        return matrix([self.writer.kept("free", value) for _ in range(rows * columns)], rows, columns)
 
     def condition(self, expression: Expression, scope: TextScope) -> Expr:
         """An expression as a condition."""
@@ -217,11 +243,8 @@ class ExpressionWriter(ElementWriter):
 
     def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
         """All values of a call; of anything else its value."""
-        own = isinstance(expression, Applied) and isinstance(expression.function, Name) and (
-            self.is_datum(expression.function.name, scope)
-            or expression.function.name in scope.script
-            or function_in(scope.node, expression.function.name) is not None
-        )  # fmt: skip
+        called = expression.function if isinstance(expression, Applied) else None
+        own = isinstance(called, Name) and self._is_own(called.name, scope)
         if not own and (found := self.word(expression, scope)) is not None:
             return [found]
         match expression:
@@ -298,7 +321,10 @@ class ExpressionWriter(ElementWriter):
         if name in self.table.kinds.enumerations and len(values) == 1:
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
-        raise NotLowered(f"{name} is no datum, event or function that is known here")
+        raise NotLowered(
+            f"{name} is no datum, event or function that is known here; if it is one of MATLAB, name it "
+            "under `free` in the file of domains to have its value as a free input"
+        )
 
     def _structure(self, given: Sequence[Expression], scope: TextScope) -> Symbolic:
         """``struct('name', value, ...)``."""

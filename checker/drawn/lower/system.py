@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from rovercheck.checker.drawn.calls import is_called
+from rovercheck.checker.drawn.free import FREE_BLOCK
 from rovercheck.checker.drawn.lower.blocks import BLOCKS
 from rovercheck.checker.drawn.lower.called_blocks import CalledBlockWriter
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
@@ -60,13 +61,21 @@ class SystemWriter(CalledBlockWriter):
             return self._subsystem(node, block.system)
         elif block.kind == "Merge":
             node.outputs = [self._merged(node)]
+        elif block.kind == FREE_BLOCK:
+            node.outputs = [
+                SymbolicScalar(self.context.table.kinds.kind(kind), self.context.inputs[name])
+                for name, kind in block.parameters.items()
+            ]
         elif block.kind in BLOCKS:
             try:
                 node.outputs = BLOCKS[block.kind](block, self._values(node), self.context.types)
             except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
                 raise NotLowered("its inputs and parameters do not fit each other") from error
         else:
-            raise NotLowered(f"{block.kind} blocks are not known here")
+            raise NotLowered(
+                f"{block.kind} blocks are not known here; name it under `free` in the file of domains to "
+                "have its outputs as free inputs"
+            )
         return []
 
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
