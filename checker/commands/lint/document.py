@@ -24,6 +24,8 @@ class LintRow(TypedDict):
     found: Literal["happens", "never", "unknown"]
     evidence: Text
     """What that rests on."""
+    run: Sequence[Text]
+    """The inputs of a run in which both conditions of an order hold, by tick; empty for anything else."""
 
 
 class LintSummary(TypedDict):

@@ -6,6 +6,7 @@ from typing import Literal
 
 from rovercheck.checker.commands.lint.document import LintRow, LintSummary, document
 from rovercheck.checker.commands.lint.guards import guard_questions, without_way_out
+from rovercheck.checker.commands.lint.runs import run_of
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, out, text_width
 from rovercheck.checker.commands.shared.select import pick
@@ -16,6 +17,7 @@ from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, Violated
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
@@ -69,6 +71,8 @@ def lint(names: Sequence[str], seconds: float | None, as_json: bool, path: Path 
     return code
 
 
+MOST_TICKS = 4
+"""Lines of a run that are shown, those of its end; --json has them all."""
 _WORTH = {"condition": ("never", "unknown"), "order": ("happens", "unknown")}
 """What is told of guards: conditions that always hold, and orders that decide."""
 
@@ -107,7 +111,7 @@ def _question(
 ) -> tuple[Property, LintRow]:
     id_ = f"{system.name}, {chart}: {number}"
     prop = reachable(id_, f"{what} happens.", that=that, covers=["lint"], on=system.name)
-    row = LintRow(system=system.name, chart=chart, kind=kind, what=what, found="unknown", evidence="")
+    row = LintRow(system=system.name, chart=chart, kind=kind, what=what, found="unknown", evidence="", run=())
     return prop, row
 
 
@@ -118,6 +122,9 @@ def _answer(row: LintRow, result: Result) -> None:
         case Violated():
             row["found"] = "never"
     row["evidence"] = evidence(result)
+    if row["kind"] == "order" and isinstance(result.verdict, Proved | Violated):
+        because = result.verdict.because
+        row["run"] = run_of(because) if isinstance(because, Trace) else ()
 
 
 def _summary(name: str, rows: Sequence[LintRow]) -> LintSummary:
@@ -131,6 +138,7 @@ def _told(rows: Sequence[LintRow], summaries: Sequence[LintSummary]) -> Iterator
         kind = _CALLED.get(row["kind"], row["kind"])
         yield _wrapped(f"{mark} {row['system']}, {row['chart']}: {kind} {row['what']}{said}")
         yield _wrapped(row["evidence"], "    ")
+        yield from (_wrapped(line, "      ") for line in row["run"][-MOST_TICKS:])
     for one in summaries:
         own = [row for row in rows if row["system"] == one["system"]]
         asked = [row for row in own if row["kind"] in ("state", "transition")]

@@ -177,9 +177,10 @@ class ExpressionWriter(ElementWriter):
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
     def _is_felt(self, expression: Expression, scope: TextScope) -> bool:
-        """Whether it matters that it is computed: it may write data, begin a time anew, or be a fault."""
+        """Whether it matters that it is computed: it may write data, begin a time, be a fault or free."""
         return self._does(expression, scope) or any(
             isinstance(one, Indexed)
+            or self._free(one, scope)
             or (
                 isinstance(one, Applied)
                 and isinstance(one.function, Name)

@@ -32,7 +32,7 @@ class GuardGoal:
 def with_guards(system: System) -> tuple[System, tuple[GuardGoal, ...]]:
     """The system, which behaves as before and raises the flags of these goals.
 
-    Of imported charts only conditions are asked for: the guards of a later transition may do something.
+    Of an imported chart it is not asked whether a condition that may do something holds, too.
     """
     goals: list[GuardGoal] = []
     components = tuple(_component(c, goals) for c in system.components)
@@ -57,6 +57,9 @@ def _component(component: Component, goals: list[GuardGoal]) -> Component:
                 for marker, name, text, valid in found
                 for goal in (made[name, text],)
             }
+            for marker, text in program.rivals.items():
+                goal = _order(goals, marker.rpartition(".")[0], text)
+                raised[marker] = _raised(goal.flag)
             return component.with_program(replace(program, statements=raising(program.statements, raised)))
         case Chart():
             return _GuardedChart(component, goals).watched()

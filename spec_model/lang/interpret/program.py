@@ -31,7 +31,7 @@ class ProgramRun:
             match one:
                 case Assign(var) if (path := self.chart.program.fired.get(var.name)) is not None:
                     self._fired.append(path)
-                case Assign(var) if var.name in self.chart.program.tested:
+                case Assign(var) if var.name in self.chart.program.markers:
                     pass
                 case Assign(var) if is_fault(var):
                     raise ModelError(f"{self.chart.name}: {var.doc}.")
