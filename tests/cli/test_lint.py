@@ -153,7 +153,7 @@ def test_the_document_is_as_published(model: str, capsys: pytest.CaptureFixture[
     assert found == {(kind, "never") for kind in ("state", "transition", "condition", "way out")} | {
         ("order", "happens")
     }
-    assert told["systems"] == [{"system": "Lamp", "states": 5, "transitions": 7}]
+    assert told["systems"] == [{"system": "Lamp", "states": 5, "transitions": 7, "asked": True}]
 
 
 def test_charts_of_simulink_are_asked_by_their_paths(capsys: pytest.CaptureFixture[str]) -> None:

@@ -91,7 +91,7 @@ def scalar_of(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: Int
     elif sign in ("/", "./"):
         exact = _quotient(one, other, kind, rules)
     elif sign == "%%":
-        exact = remainder(one, other)
+        exact = remainder(one, other, rules.zero_noted)
     elif sign in ("^", ".^"):
         exact = _power(one, right)
     else:
@@ -153,6 +153,8 @@ def _quotient(one: Expr, other: Expr, kind: str, rules: IntegerRules) -> Expr:
         if divisor:  # integers are rounded here: no resolution is common to the quotients of all divisors
             exact = folded(one / divisor)
             return _whole(exact, rules) if kind in INTEGERS else exact
+        if rules.zero_noted:
+            return const(0)
         if kind not in INTEGERS or rules.c:
             raise NotLowered(f"`{one} / {other}` may divide by 0")
         low, high = INTEGERS[kind]

@@ -35,6 +35,7 @@ class ExecutedParts:
     fired: dict[str, FiredTransition] = field(default_factory=dict)
     tested: dict[str, tuple[str, bool]] = field(default_factory=dict)
     rivals: dict[str, str] = field(default_factory=dict)
+    overflows: dict[str, str] = field(default_factory=dict)
 
     def statements(self, components: Iterable[Component]) -> list[Statement]:
         """The statements of components in order."""
@@ -58,6 +59,7 @@ class ExecutedParts:
         self.fired |= program.fired
         self.tested |= program.tested
         self.rivals |= program.rivals
+        self.overflows |= program.overflows
         self.charts.append(chart.with_program(StepProgram((), starting=program.starting)))
 
 
@@ -110,6 +112,7 @@ class CalledBlockWriter(ChartBlockWriter):
         made.view.fired |= parts.fired
         made.view.tested |= parts.tested
         made.view.rivals |= parts.rivals
+        made.view.overflows |= parts.overflows
         return parts.charts
 
     def _functions(

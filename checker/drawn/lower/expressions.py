@@ -21,11 +21,10 @@ from rovercheck.checker.drawn.grammar.syntax import (
     UnaryOperation,
     parts,
 )
-from rovercheck.checker.drawn.lower.arithmetic import binary, unary
+from rovercheck.checker.drawn.lower.arithmetic import unary
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
 from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.elements import ElementWriter
 from rovercheck.checker.drawn.lower.matrix_functions import (
     CODER_VALUES,
     CODER_WORDS,
@@ -39,6 +38,7 @@ from rovercheck.checker.drawn.lower.matrix_functions import (
     sorted_values,
 )
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
+from rovercheck.checker.drawn.lower.operators import OperatorWriter, division_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
     MADE,
@@ -62,7 +62,7 @@ from rovercheck.checker.drawn.parsed import FunctionNode
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, const
 
 
-class ExpressionWriter(ElementWriter):
+class ExpressionWriter(OperatorWriter):
     """Makes formulas of the texts of one chart; what it calls is written before the formula."""
 
     def __init__(self, table: DataTable, writer: ProgramWriter) -> None:
@@ -110,9 +110,8 @@ class ExpressionWriter(ElementWriter):
                 return unary(sign, self.value(operand, scope), scope.rules)
             case BinaryOperation("&&" | "||" as sign, left, right):
                 return truth(self._short(sign, left, right, scope))
-            case BinaryOperation(sign, left, right):
-                one, other = self._both(left, right, scope)
-                return binary(sign, one, other, scope.rules)
+            case BinaryOperation(_, left, right):
+                return self.operated(expression, *self._both(left, right, scope), scope)
             case Matrix(rows):
                 return self._matrix([[self.value(one, scope) for one in row] for row in rows], scope)
             case ColonRange():
@@ -178,7 +177,7 @@ class ExpressionWriter(ElementWriter):
 
     def _is_felt(self, expression: Expression, scope: TextScope) -> bool:
         """Whether it matters that it is computed: it may write data, begin a time, be a fault or free."""
-        return self._does(expression, scope) or any(
+        felt = self._does(expression, scope) or any(
             isinstance(one, Indexed)
             or self._free(one, scope)
             or (
@@ -187,6 +186,11 @@ class ExpressionWriter(ElementWriter):
                 and (one.function.name in COUNTED or self.is_datum(one.function.name, scope))
             )
             for one in parts(expression)
+        )
+        return felt or any(
+            self.zeros(one.operator, self.value(one.left, scope), self.value(one.right, scope), scope)
+            for part in parts(expression)
+            for one in division_in(part)
         )
 
     def _short(self, sign: str, left: Expression, right: Expression, scope: TextScope) -> Expr:
@@ -198,7 +202,9 @@ class ExpressionWriter(ElementWriter):
         if isinstance(one, Const) and bool(one.value) == (sign == "||"):
             return one
         if not self._is_felt(right, scope):
+            around, self.only_if = self.only_if, folded(self.only_if & (one if sign == "&&" else ~one))
             other = self.condition(right, scope)
+            self.only_if = around
             return folded(one & other if sign == "&&" else one | other)
         key = f"{scope.function}:?"
         self.writer.locals[key] = truth(one)

@@ -32,6 +32,7 @@ class ChartView:
         self.fired: dict[str, FiredTransition] = {}
         self.tested: dict[str, tuple[str, bool]] = {}
         self.rivals: dict[str, str] = {}
+        self.overflows: dict[str, str] = {}
         self.begun = self._chart.entered
 
     def _name_all(self, node: StateNode, path: Path) -> None:
@@ -83,6 +84,13 @@ class ChartView:
         name = f"{self.name_of_chart}.both {one.drawn.ssid} {other.drawn.ssid}"
         labels = (f"`{label_of(t.drawn)}` (SSID {t.drawn.ssid})" for t in (one, other))
         self.rivals[name] = f"{' and '.join(labels)} from {_start(one)}"
+        return Var(name, boolean, 0, hidden=True)
+
+    def overflow_marker(self, what: str) -> Var:
+        """A variable that is assigned where an integer is more than its type holds."""
+        known = {said: name for name, said in self.overflows.items()}
+        name = known.get(what, f"{self.name_of_chart}.overflow {len(known) + 1}")
+        self.overflows[name] = what
         return Var(name, boolean, 0, hidden=True)
 
     @staticmethod
