@@ -62,7 +62,7 @@ BLOCKS: Mapping[str, str] = {
 
 CALLS = ("FunctionCallSplit", "FunctionCallGenerator", "FunctionCaller", "ModelReference")
 """Those of them that do more than give values."""
-FREE = "`free` in the file of domains to have its outputs as free inputs"
+FREE = "`free` in the file of domains, to have any value"
 SELECTED = "Index vector (dialog)"
 """How a Selector names elements: by numbers that are written in it."""
 
@@ -196,4 +196,4 @@ def label_of(transition: DrawnTransition) -> str:
     return " ".join(transition.label.split()) or "?"
 
 
-__all__ = ["DrawingNote", "label_of", "notes_of"]
+__all__ = ["FREE", "DrawingNote", "label_of", "notes_of"]

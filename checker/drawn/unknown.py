@@ -5,14 +5,14 @@ from dataclasses import dataclass, field, fields, is_dataclass
 
 from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.actions import Assignment, ForLoop, NameDeclaration
-from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name, operands
+from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name, operands, parts
 from rovercheck.checker.drawn.grammar.trees import expressions_of
 from rovercheck.checker.drawn.interpret.clock import DURATIONS, LIMITS, UNITS
 from rovercheck.checker.drawn.interpret.functions import BUILTINS, WITHOUT_EFFECT
 from rovercheck.checker.drawn.interpret.matrix_functions import FURTHER, TYPED
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnEnumeration
-from rovercheck.checker.drawn.refused import DrawingNote, label_of
+from rovercheck.checker.drawn.refused import FREE, DrawingNote, label_of
 from rovercheck.spec_model.lang.errors import did_you_mean
 
 COUNTS = ("temporalCount", "elapsed")
@@ -78,10 +78,14 @@ class _Finder:
         known |= {*WAKES, *BUILTINS, *FURTHER, *TYPED, *WITHOUT_EFFECT, *self.enumerations}
         for around in node.lineage():
             known |= around.data.keys() | around.functions.keys()
-        found = dict.fromkeys(name for text in expressions_of(*texts) for name in self._unknown(text, known))
+        written = list(expressions_of(*texts))
+        found = dict.fromkeys(name for text in written for name in self._unknown(text, known))
+        called = {one.function for text in written for one in parts(text) if isinstance(one, Applied)}
         for name in found:
             near = did_you_mean(name, self._own(known))
             text = f"{name} is no datum, event, function or member that is known here. {near}".strip()
+            if Name(name) in called:
+                text += f" A function of MATLAB may be named under {FREE}."
             if name in TIME:
                 text = f"{name} is the time since the beginning, which has no end. Use after or elapsed."
             if name in IMPLICIT:

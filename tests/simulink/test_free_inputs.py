@@ -147,6 +147,18 @@ def test_each_call_of_a_function_is_a_value_of_its_own(tmp_path: Path) -> None:
     assert [note for note in made.notes if "sqrt is a free input" in note]
 
 
+def test_a_function_is_refused_until_it_is_free_and_its_range_is_proposed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = SINES.save(tmp_path, "R2024a")
+    assert run(["import", str(path)]) is Exit.INCONCLUSIVE
+    assert "A function of MATLAB may be named under `free` in the file of domains" in said(capsys)
+    domains = tmp_path / "sines.domains.toml"
+    domains.write_text('free = ["sin", "sqrt"]\n[domains]\ny = { low = -4, high = 4 }\n', encoding="utf-8")
+    assert run(["import", str(path), "--propose-domains", "--force"]) is Exit.AS_EXPECTED
+    assert "sin = { low = -1, high = 1, resolution = 0.125 }" in domains.read_text(encoding="utf-8")
+
+
 def test_two_values_of_one_step_may_differ(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = SINES.save(tmp_path, "R2024a")
     (tmp_path / "sines.domains.toml").write_text(

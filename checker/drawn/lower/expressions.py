@@ -59,6 +59,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.parsed import FunctionNode
+from rovercheck.checker.drawn.refused import FREE
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, const
 
 
@@ -329,8 +330,8 @@ class ExpressionWriter(OperatorWriter):
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
         raise NotLowered(
-            f"{name} is no datum, event or function that is known here; if it is one of MATLAB, name it "
-            "under `free` in the file of domains to have its value as a free input"
+            f"{name} is no datum, event or function that is known here; a function of MATLAB may be named "
+            f"under {FREE}"
         )
 
     def _structure(self, given: Sequence[Expression], scope: TextScope) -> Symbolic:

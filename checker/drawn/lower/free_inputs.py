@@ -28,7 +28,7 @@ class FreeInputs:
 
     def components(self, components: Iterable[Component]) -> tuple[Component, ...]:
         """Components in the order in which they are executed, with inputs of their own."""
-        return tuple(map(self._component, components))
+        return tuple(map(self._component, components)) if self.values else tuple(components)
 
     def _component(self, one: Component) -> Component:
         match one:

@@ -21,6 +21,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.records import DrawnSystem
+from rovercheck.checker.drawn.refused import FREE
 from rovercheck.checker.drawn.resets import begins_anew, resets_refused
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
@@ -72,10 +73,7 @@ class SystemWriter(CalledBlockWriter):
             except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
                 raise NotLowered("its inputs and parameters do not fit each other") from error
         else:
-            raise NotLowered(
-                f"{block.kind} blocks are not known here; name it under `free` in the file of domains to "
-                "have its outputs as free inputs"
-            )
+            raise NotLowered(f"{block.kind} blocks are not known here; name it under {FREE}")
         return []
 
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
