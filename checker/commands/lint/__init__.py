@@ -16,7 +16,12 @@ Examples:
 
 @click.command(short_help="Find what can never happen, and numbers that do not fit.", epilog=EXAMPLES)
 @click.option("--system", "systems", multiple=True, metavar="NAME", help="Only this system; may be repeated.")
-@click.option("--seconds", type=click.FloatRange(0, min_open=True), help="For the searches of a system.")
+@click.option(
+    "--seconds",
+    type=click.FloatRange(0, min_open=True),
+    help="For the searches of a system; by default 20 s for what may become of numbers, and for all where "
+    "that is not decided.",
+)
 @click.option("--json", "as_json", is_flag=True, help="What was found, as JSON.")
 @modelling
 @quietly

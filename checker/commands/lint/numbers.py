@@ -14,6 +14,9 @@ from rovercheck.checker.verify.runs.domains import stray
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.system import System
 
+SECONDS = 20.0
+"""For the search of a system, unless a limit is given: a run out of a domain may have millions of ticks."""
+
 
 def number_rows(system: System, seconds: float | None) -> Iterator[LintRow]:
     """A row for each datum that may leave its domain, and for each step that may have no meaning.
@@ -23,7 +26,7 @@ def number_rows(system: System, seconds: float | None) -> Iterator[LintRow]:
     asked, goals = with_first_faults(lowered(system))
     if not goals:
         return
-    limits = Limits(seconds=seconds)
+    limits = Limits(seconds=seconds or SECONDS)
     found = EngineCall(AUTO, limits, SILENT, limits.deadline())(asked, [goal.flag for goal in goals])
     for goal in goals:
         row = _row(system, goal)
@@ -57,4 +60,4 @@ def _told(system: System, run: Run) -> Iterator[str]:
     return input_lines(shown, inputs)
 
 
-__all__ = ["number_rows"]
+__all__ = ["SECONDS", "number_rows"]

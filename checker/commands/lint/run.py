@@ -6,7 +6,7 @@ from typing import Literal
 
 from rovercheck.checker.commands.lint.document import NUMBERS, LintRow, LintSummary, document
 from rovercheck.checker.commands.lint.guards import guard_questions, without_way_out
-from rovercheck.checker.commands.lint.numbers import number_rows
+from rovercheck.checker.commands.lint.numbers import SECONDS, number_rows
 from rovercheck.checker.commands.lint.runs import run_of
 from rovercheck.checker.commands.lint.text import told_lines
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
@@ -45,6 +45,8 @@ def lint(names: Sequence[str], seconds: float | None, as_json: bool, path: Path 
     }
     questions = {prop.id: row for name in sound for prop, row in asked[name]}
     properties = [prop for name in sound for prop, _ in asked[name]]
+    if any(row["found"] == "unknown" for row in numbers):
+        seconds = seconds or SECONDS  # a proof rests on it
     search = SearchSettings(limits=Limits(seconds=seconds), traces=False)
     for result in results(properties, looked, search, quiet=as_json):
         _answer(questions[result.property.id], result)

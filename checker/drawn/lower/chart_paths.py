@@ -7,6 +7,7 @@ from functools import partial
 
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
 from rovercheck.checker.drawn.lower.chart_words import WordWriter
+from rovercheck.checker.drawn.lower.exclusive import exclude
 from rovercheck.checker.drawn.lower.joints import joints_of
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
@@ -62,7 +63,7 @@ class PathWriter(WordWriter):
             later = () if search.in_function or isinstance(valid, Const) else transitions[number:]
             self.writer.choose(
                 valid,
-                partial(self._follow, one, path, search, later),
+                partial(self._follow, one, path, search, (valid, later)),
                 partial(self._note_tested, one, False),
             )
 
@@ -72,7 +73,9 @@ class PathWriter(WordWriter):
             self.writer.assign(marker, TRUE)
             self.writer.known.pop(marker.name, None)
 
-    def _note_rivals(self, one: TransitionNode, later: Sequence[TransitionNode], scope: TextScope) -> None:
+    def _note_rivals(
+        self, one: TransitionNode, holds: Expr, later: Sequence[TransitionNode], scope: TextScope
+    ) -> None:
         """Note where a transition that is tested later is valid as well, and does something else.
 
         One whose condition may do something, as a call of a function, is not tested for that; one without a
@@ -88,16 +91,16 @@ class PathWriter(WordWriter):
                 continue
             with suppress(NotLowered):  # which is told where it is tested
                 valid = self._valid(other, scope)
-                if not isinstance(valid, Const):
+                if not isinstance(valid, Const) and not exclude(holds, valid):
                     self.writer.mark(self.view.rivals_marker(one, other), valid)
 
     def _follow(
         self, one: TransitionNode, path: TransitionPath, search: _PathSearch,
-        later: Sequence[TransitionNode],
+        rivals: tuple[Expr, Sequence[TransitionNode]],
     ) -> None:  # fmt: skip
         self._note_tested(one, True)
         sure = one.label.guard is None or self._sure
-        self._note_rivals(one, later, search.scope)
+        self._note_rivals(one, *rivals, search.scope)
         with self._told(one):
             self.run(one.label.condition_actions, search.scope)
             if search.in_function:
