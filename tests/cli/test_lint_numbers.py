@@ -10,6 +10,7 @@ from jsonschema import Draft202012Validator
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.lint.document import LintRow
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.schemas import published
 from tests.simulink.known.packages import ChartText
 
@@ -116,6 +117,41 @@ def test_a_division_that_is_guarded_is_proved(tmp_path: Path, capsys: pytest.Cap
     code, rows = rows_of(path, capsys)
     assert {one["found"] for one in rows.values()} == {"never"} and len(rows) >= 2
     assert code == Exit.AS_EXPECTED
+
+
+def dividing_blocks(folder: Path) -> Path:
+    """A Product block that divides, and a MATLAB function that does."""
+    model = WrittenModel("blocks")
+    a, b = (model.root.inport(name, n, OutDataTypeStr="double") for n, name in enumerate("ab", 1))
+    ratio = model.root.block("Product", "Ratio", {"in": 2, "out": 1}, {}, Inputs="*/")
+    script = "function y = fit(a, b)\ny = int8(0);\nif a / (b + 1) > 3\n y = int8(a / b);\nend\n"
+    fit, data = model.root.chart("Fit", "MATLAB Function", script)
+    for name, scope, kind in (("a", "input", ""), ("b", "input", ""), ("y", "output", "int8")):
+        data.data(name, scope, kind or "Inherit: Same as Simulink")
+    for block in (ratio, fit):
+        model.root.line(a, f"{block}/1")
+        model.root.line(b, f"{block}/2")
+    whole = model.root.block("DataTypeConversion", "Whole", {"in": 1, "out": 1}, {}, OutDataTypeStr="int16")
+    model.root.line(ratio, whole)
+    model.root.line(whole, model.root.outport("r", 1))
+    model.root.line(fit, model.root.outport("y", 2))
+    (folder / "blocks.domains.toml").write_text(
+        "[domains]\na = { low = 0, high = 60 }\nb = { low = 0, high = 4 }\n", encoding="utf-8"
+    )
+    return model.save(folder / "blocks.slx")
+
+
+def test_divisions_of_blocks_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of two in one step the first is met; where `b` is 0 the second always comes after it."""
+    path = dividing_blocks(tmp_path)
+    assert run(["import", str(path)]) == Exit.AS_EXPECTED
+    assert "the direct interpreter gives the same" in capsys.readouterr().out
+    code, rows = rows_of(path, capsys)
+    assert code == Exit.FAILED
+    found = {what: row["found"] for what, row in rows.items()}
+    assert sorted(found.values()) == ["happens", "never"]
+    [other] = [row for row in rows.values() if row["found"] == "never"]
+    assert "unless something of the other rows has happened before" in other["evidence"]
 
 
 def test_a_datum_of_a_chart_that_leaves_its_domain(

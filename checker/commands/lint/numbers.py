@@ -21,13 +21,16 @@ SECONDS = 20.0
 def number_rows(system: System, seconds: float | None) -> Iterator[LintRow]:
     """A row for each datum that may leave its domain, and for each step that may have no meaning.
 
-    What its formulas leave no doubt of is none of them.
+    What its formulas leave no doubt of is none of them.  Where one happens, a proof about another is that it
+    does not happen first: what comes after the one has no meaning.
     """
     asked, goals = with_first_faults(lowered(system))
     if not goals:
         return
     limits = Limits(seconds=seconds or SECONDS)
     found = EngineCall(AUTO, limits, SILENT, limits.deadline())(asked, [goal.flag for goal in goals])
+    ends = any(isinstance(answer, Reached) for answer, _ in found.values())
+    first = ", unless something of the other rows has happened before" if ends else ""
     for goal in goals:
         row = _row(system, goal)
         match found[goal.flag.name]:
@@ -35,7 +38,7 @@ def number_rows(system: System, seconds: float | None) -> Iterator[LintRow]:
                 row["found"], row["run"] = "happens", list(_told(system, run))
                 row["evidence"] = f"{by}: a run of {counted_ticks(len(run))} of {system.name}"
             case Unreachable(because), by:
-                row["found"], row["evidence"] = "never", f"{by}: {because.how} of {system.name}"
+                row["found"], row["evidence"] = "never", f"{by}: {because.how} of {system.name}{first}"
             case Open(reason, depth), by:
                 row["evidence"] = f"{by}: not within {counted_ticks(depth)} of {system.name}: {reason}"
         yield row

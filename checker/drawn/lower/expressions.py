@@ -21,7 +21,7 @@ from rovercheck.checker.drawn.grammar.syntax import (
     UnaryOperation,
     parts,
 )
-from rovercheck.checker.drawn.lower.arithmetic import unary
+from rovercheck.checker.drawn.lower.arithmetic import unary, zeros_of
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
 from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
@@ -189,7 +189,7 @@ class ExpressionWriter(OperatorWriter):
             for one in parts(expression)
         )
         return felt or any(
-            self.zeros(one.operator, self.value(one.left, scope), self.value(one.right, scope), scope)
+            zeros_of(one.operator, self.value(one.left, scope), self.value(one.right, scope), scope.rules)
             for part in parts(expression)
             for one in division_in(part)
         )

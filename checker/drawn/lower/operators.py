@@ -14,7 +14,7 @@ from rovercheck.checker.drawn.grammar.syntax import (
     NumberKind,
 )
 from rovercheck.checker.drawn.grammar.text import text_of
-from rovercheck.checker.drawn.lower.arithmetic import binary
+from rovercheck.checker.drawn.lower.arithmetic import DIVISIONS, binary, zeros_of
 from rovercheck.checker.drawn.lower.conversions import as_number
 from rovercheck.checker.drawn.lower.elements import ElementWriter
 from rovercheck.checker.drawn.lower.names import TextScope
@@ -22,7 +22,6 @@ from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     Symbolic,
     SymbolicScalar,
-    SymbolicStructure,
     flat,
     folded,
     least_and_greatest,
@@ -31,9 +30,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.expr import TRUE, Expr, all_of, any_of, const
-from rovercheck.spec_model.lang.lower.ranges import possible
 
-DIVISIONS = ("/", "./", "%%")
 CLOSED = ("+", "-", "*", ".*")
 """Operators of integers whose results may be more than their type holds."""
 
@@ -50,7 +47,7 @@ class OperatorWriter(ElementWriter):
     def operated(self, whole: BinaryOperation, one: Symbolic, other: Symbolic, scope: TextScope) -> Symbolic:
         """The value of an operation of two values.  Raises ``NotLowered``."""
         sign, rules = whole.operator, scope.rules
-        if zero := self.zeros(sign, one, other, scope):
+        if zero := zeros_of(sign, one, other, rules):
             said = f"{_shown(whole, scope)} {BY_ZERO}"
             self.writer.choose(folded(any_of(*zero)), lambda: self.writer.fault(said))
             return binary(sign, one, other, replace(rules, zero_noted=True))
@@ -66,20 +63,6 @@ class OperatorWriter(ElementWriter):
 
     def note_overflow(self, what: str, condition: Expr) -> None:
         """Note where a result does not fit its type; where nothing is noted it is no matter."""
-
-    @staticmethod
-    def zeros(sign: str, one: Symbolic, other: Symbolic, scope: TextScope) -> list[Expr]:
-        """The conditions under which an operator divides by 0, where that has no meaning.
-
-        A constant 0 has none, as it is refused, nor have integers of MATLAB, which stop at their ends.
-        """
-        if sign not in DIVISIONS or isinstance(other, SymbolicStructure):
-            return []
-        if not scope.rules.c and {one.kind, other.kind} & INTEGERS.keys():
-            return []
-        if any(value.constant == 0 for value in flat(other)):
-            return []
-        return [folded(by == 0) for by in map(as_number, flat(other)) if 0 in possible(by)]
 
 
 def _shown(whole: BinaryOperation, scope: TextScope) -> str:
