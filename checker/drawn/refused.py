@@ -60,6 +60,12 @@ BLOCKS: Mapping[str, str] = {
 """Blocks without a meaning here, and the way around them."""
 
 
+CALLS = (
+    "FunctionCallSplit", "FunctionCallGenerator", "FunctionCallFeedbackLatch", "FunctionCaller",
+    "ModelReference",
+)  # fmt: skip
+"""Those of them that do more than give values."""
+FREE = "`free` in the file of domains, to have any value"
 SELECTED = "Index vector (dialog)"
 """How a Selector names elements: by numbers that are written in it."""
 
@@ -89,7 +95,8 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
     if block.kind in BLOCKS:
         source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
         generates = source == "Function-Call Generator" or name == "fcncallgen"
-        yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}."
+        way = "" if generates or block.kind in CALLS else f" Or name it under {FREE}."
+        yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}.{way}"
     if block.parameters.get("Commented") == "through":
         yield "it is commented through. Delete it, and draw the signal past it."
     if block.kind != "SubSystem" or block.system is None or block.chart:
@@ -192,4 +199,4 @@ def label_of(transition: DrawnTransition) -> str:
     return " ".join(transition.label.split()) or "?"
 
 
-__all__ = ["DrawingNote", "label_of", "notes_of"]
+__all__ = ["FREE", "DrawingNote", "label_of", "notes_of"]

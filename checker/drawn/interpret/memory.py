@@ -20,7 +20,7 @@ from rovercheck.checker.drawn.interpret.values import (
 )
 from rovercheck.checker.drawn.parameters import expanded, seen_in
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
-from rovercheck.checker.drawn.records import DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
 from rovercheck.checker.drawn.type_names import plain_type
 
 ENUM, BUS = "Enum:", "Bus:"
@@ -99,11 +99,25 @@ def dimensions(text: str) -> tuple[int, int]:
     return sizes[0], sizes[1]
 
 
+@dataclass
+class FreeValues:
+    """What is free: its values in this step, by name, and the names of functions and expressions."""
+
+    texts: Mapping[str, str] = field(default_factory=dict)
+    values: dict[str, float] = field(default_factory=dict)
+
+    def of_block(self, block: DrawnBlock, types: TypeTable) -> list[MatlabValue]:
+        """The outputs of a free block, in their types."""
+        every = ((Scalar("double", self.values[name]), types.kind(k)) for name, k in block.parameters.items())
+        return [each_converted(value, kind, NumberRules()) for value, kind in every]
+
+
 class ChartMemory:
     """The values of a chart's data; one of an inherited type has that of its first value."""
 
-    def __init__(self, types: TypeTable, rules: NumberRules) -> None:
+    def __init__(self, types: TypeTable, rules: NumberRules, free: FreeValues | None = None) -> None:
         self.types, self.rules = types, rules
+        self.free = free or FreeValues()
         self._data: dict[int, DrawnData] = {}
         self._kinds: dict[int, str] = {}
         self._initial: dict[int, MatlabValue] = {}

@@ -4,16 +4,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import partial
 from typing import Protocol
 
 from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of, is_called
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.free import FREE_BLOCK
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS
 from rovercheck.checker.drawn.interpret.delays import without_type
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
-from rovercheck.checker.drawn.interpret.memory import TypeTable
+from rovercheck.checker.drawn.interpret.memory import FreeValues, TypeTable
 from rovercheck.checker.drawn.interpret.values import (
     TYPES,
     MatlabValue,
@@ -25,7 +25,7 @@ from rovercheck.checker.drawn.interpret.values import (
 )
 from rovercheck.checker.drawn.interpret.wake import outputs_of, woken
 from rovercheck.checker.drawn.merges import UNSAID, merged
-from rovercheck.checker.drawn.parameters import rate_of
+from rovercheck.checker.drawn.parameters import rate_of, same_number
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
 from rovercheck.checker.drawn.resets import begins_anew, resets_refused
@@ -39,12 +39,17 @@ class SharedParts(Protocol):
     types: TypeTable
     step_length: str
     named: dict[str, str]
+    free: FreeValues
 
     def chart(self, path: str) -> DrawnChart:
         """The chart of a block.  Raises ``DrawnFault``."""
 
     def value_of(self, text: str) -> MatlabValue:
         """The value of a parameter.  Raises ``DrawnFault``."""
+
+
+OTHERS = ("Inport", "Outport", "Merge", FREE_BLOCK, *CONTROL)
+"""The blocks without a formula that are known here, beside charts, subsystems and delays."""
 
 
 @dataclass
@@ -108,10 +113,10 @@ class SystemAtWork:
             chart = parsed_chart(self._runner.chart(block.chart))
             if chart.notes:
                 raise DrawnFault(str(chart.notes[0]))
-            runner = self._runner
-            node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
+            of = self._runner
+            node.chart = ChartMachine(chart, of.types, of.step_length, of.named, of.free)
             for function in simulink_functions(block, chart):
-                inside = SystemAtWork(function.system, runner)
+                inside = SystemAtWork(function.system, of)
                 node.functions.append(inside)
                 node.chart.executed[function.node.drawn.ssid] = partial(_executed, function, inside)
         elif block.kind == "SubSystem" and block.system is not None:
@@ -120,7 +125,7 @@ class SystemAtWork:
             node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
         elif block.kind in DELAYS:
             node.memory = without_type(self._runner.value_of(block.parameters.get("InitialCondition", "0")))
-        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", "Merge", *CONTROL):
+        elif block.kind not in (*BLOCKS, *OTHERS):
             raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
 
@@ -139,7 +144,7 @@ class SystemAtWork:
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
             written = chart.sample_time.strip() or "-1"
         rate = rate_of(written, self._runner.named)
-        if rate not in ("-1", "0", "inf") and not _same_number(rate, self._runner.step_length):
+        if rate not in ("-1", "0", "inf") and not same_number(rate, self._runner.step_length):
             step = self._runner.step_length
             raise DrawnFault(
                 f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
@@ -240,6 +245,8 @@ class SystemAtWork:
             return node.system.disabled(node.outputs) if node.control == "enable" else node.outputs
         if block.kind == "Merge":
             return [self._merged(node)]
+        if block.kind == FREE_BLOCK:
+            return self._runner.free.of_block(block, self._runner.types)
         try:
             return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
         except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
@@ -372,13 +379,6 @@ def _executed(
     """What a Simulink function gives for some arguments."""
     found = system.step([given[name] for name in function.inputs])
     return dict(zip(function.outputs, found, strict=True))
-
-
-def _same_number(one: str, other: str) -> bool:
-    try:
-        return Fraction(one) == Fraction(other)
-    except (ValueError, ZeroDivisionError):
-        return False
 
 
 def _port(node: BlockAtWork) -> tuple[str, int]:

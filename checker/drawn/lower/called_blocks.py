@@ -34,6 +34,8 @@ class ExecutedParts:
     temporaries: dict[str, Var] = field(default_factory=dict)
     fired: dict[str, FiredTransition] = field(default_factory=dict)
     tested: dict[str, tuple[str, bool]] = field(default_factory=dict)
+    rivals: dict[str, str] = field(default_factory=dict)
+    overflows: dict[str, str] = field(default_factory=dict)
 
     def statements(self, components: Iterable[Component]) -> list[Statement]:
         """The statements of components in order."""
@@ -56,6 +58,8 @@ class ExecutedParts:
         self.temporaries |= {var.name: var for var in program.temporaries}
         self.fired |= program.fired
         self.tested |= program.tested
+        self.rivals |= program.rivals
+        self.overflows |= program.overflows
         self.charts.append(chart.with_program(StepProgram((), starting=program.starting)))
 
 
@@ -107,6 +111,8 @@ class CalledBlockWriter(ChartBlockWriter):
         made.writer.temporaries |= parts.temporaries
         made.view.fired |= parts.fired
         made.view.tested |= parts.tested
+        made.view.rivals |= parts.rivals
+        made.view.overflows |= parts.overflows
         return parts.charts
 
     def _functions(
