@@ -177,7 +177,7 @@ class Wiring:
         if self.source.chance(3):
             made = self.segment(path, self.source.pick(inside), words=False)
             node.default += [made] if made else []
-        for level, name in self.plain if self.source.chance(2) else ():
+        for level, name in sorted(self.plain) if self.source.chance(2) else ():
             ends = self.ends[level, name]
             if level == path and all(e in inside for e in ends):
                 node.default.append(self.label(name, words=False))
