@@ -90,6 +90,8 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
         source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
         generates = source == "Function-Call Generator" or name == "fcncallgen"
         yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}."
+    if block.parameters.get("DataStoreElements", "").strip() not in ("", "#"):
+        yield "it reads or writes some elements of a data store. Read it whole, and use a selector."
     if block.parameters.get("Commented") == "through":
         yield "it is commented through. Delete it, and draw the signal past it."
     if block.kind != "SubSystem" or block.system is None or block.chart:
@@ -167,8 +169,8 @@ def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNot
         why = "it is a message, with a queue. Use an event, or a datum and a counter"
     elif "fixdt" in type_ or type_.startswith(("sfix", "ufix")):
         why = f"{one.type} is a fixed-point type. Use a type of integers, and scale in the chart"
-    elif one.scope == "data store":
-        why = "it is a data store, which other blocks write, too. Connect it as an input and an output"
+    elif one.scope == "data store" and one not in chart.content.data:
+        why = "it is a data store of a state. Make it one of the chart"
     elif one.type == "string" or one.type.startswith("stringtype"):
         why = "it is a string. Use an enumeration"
     if why:

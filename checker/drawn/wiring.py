@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from rovercheck.checker.drawn.calls import FunctionCall, Port, function_calls
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
+from rovercheck.checker.drawn.store_order import Uses, order_by_stores
 
 CONTROL = {"EnablePort": "enable", "TriggerPort": "trigger", "ActionPort": "ifaction"}
 DELAYS = ("UnitDelay", "Memory")
@@ -41,9 +42,13 @@ class SystemWiring:
         return [self.feeds.get((block.id, str(number))) for number in range(1, most + 1)]
 
 
-def wired(system: DrawnSystem) -> SystemWiring:
-    """The wiring of a system.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
-    return _Wires(system).wiring()
+def wired(system: DrawnSystem, uses: Uses) -> SystemWiring:
+    """The wiring of a system, of which blocks use data stores.
+
+    Raises ``DrawnFault`` for blocks that feed themselves without a delay, and for those whose order shows in
+    a data store and is not drawn.
+    """
+    return _Wires(system).wiring(uses)
 
 
 def _is_group(block: DrawnBlock) -> bool:
@@ -61,7 +66,7 @@ def number_of(block: DrawnBlock) -> int:
 
 ONE_INPUT = (
     "Gain", "DataTypeConversion", "Abs", "Saturate", "CompareToConstant", "CompareToZero", "Selector",
-    "Outport", *DELAYS,
+    "Outport", "DataStoreWrite", *DELAYS,
 )  # fmt: skip
 MOST_INPUTS = 10_000
 
@@ -100,7 +105,7 @@ class _Wires:
             if _is_group(block) and block.system is not None:
                 self._take(block.system, block)
 
-    def wiring(self) -> SystemWiring:
+    def wiring(self, uses: Uses) -> SystemWiring:
         """The wiring.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
         found = SystemWiring()
         real = [block for block in self._blocks.values() if self._is_real(block)]
@@ -110,7 +115,7 @@ class _Wires:
                 if source is not None:
                     found.feeds[target, port] = source
         found.calls = function_calls({block.id: block for block in real}, found.feeds)
-        found.order = _ordered(real, found.feeds, _callers(found.calls))
+        found.order = _ordered(real, found.feeds, _callers(found.calls), uses)
         return found
 
     def _is_real(self, block: DrawnBlock) -> bool:
@@ -165,8 +170,9 @@ def _callers(calls: Mapping[Port, FunctionCall]) -> dict[str, str]:
 
 
 def _ordered(
-    blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port], callers: Mapping[str, str]
-) -> list[DrawnBlock]:
+    blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port], callers: Mapping[str, str],
+    uses: Uses,
+) -> list[DrawnBlock]:  # fmt: skip
     """Each block after those that feed it directly; a delay gives what it got a step before.
 
     What is called is executed with the chart that calls it: after all that feeds either of them, and before
@@ -185,6 +191,7 @@ def _ordered(
     for block in every:
         group = together.setdefault(callers.get(block, block), [])
         group.insert(0 if block in callers else len(group), block)
+    order_by_stores(before, {first: [every[one] for one in group] for first, group in together.items()}, uses)
     said = " (what a chart calls is executed with it)" if callers else ""
     return [every[name] for first in _sorted(before, said) for name in together[first]]
 

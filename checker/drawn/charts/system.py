@@ -76,13 +76,8 @@ class LanguageSystemWriter(SystemWriter):
     texts_of: type[ChartTexts]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
-        if chart.drawn.is_function:
-            return super()._writer(chart, view, writer)
-        context = self.context
-        return self.texts_of(
-            chart, view, context.table, writer, context.step, context.named,
-            lambda one, node: context.names.of_datum(chart.drawn, one, node),
-        )  # fmt: skip
+        self.writer_of = ChartWriter if chart.drawn.is_function else self.texts_of
+        return super()._writer(chart, view, writer)
 
     def _chart(self, node: BlockNode) -> list[Component]:
         context, chart = self.context, self.context.chart(node.block.chart)

@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.interpret.blocks import parsed_value
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
+from rovercheck.checker.drawn.interpret.stores import StoresAtWork
 from rovercheck.checker.drawn.interpret.system import SystemAtWork
 from rovercheck.checker.drawn.interpret.values import (
     MatlabValue,
@@ -20,9 +21,10 @@ from rovercheck.checker.drawn.interpret.values import (
     shape,
 )
 from rovercheck.checker.drawn.parameters import expanded, values_of
-from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
+from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.drawn.stores import data_stores
 from rovercheck.checker.drawn.wiring import number_of
 
 Number = int | float
@@ -41,6 +43,8 @@ class ModelRunner:
         for note in notes_of(model):
             if note.kind == "refused":
                 raise DrawnFault(str(note).rstrip("."))
+        charts = {one.path: parsed_chart(one) for one in model.charts}
+        self.stores = StoresAtWork(data_stores(model.system, charts), self.types, self.value_of)
         self._top = SystemAtWork(model.system, self)
         root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
         self._inports = [root[number] for number in sorted(root)]

@@ -14,7 +14,7 @@ from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.chart_functions import END, ChartFunctions, Found
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
-from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, SharedCell, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
 from rovercheck.checker.drawn.interpret.output_events import OutputEvents
 from rovercheck.checker.drawn.interpret.scope import chain_to, scope_of
@@ -39,11 +39,12 @@ class ChartMachine(ChartFunctions):
     """
 
     def __init__(
-        self, chart: ParsedChart, types: TypeTable, step: str, named: Mapping[str, str] | None = None
-    ) -> None:
+        self, chart: ParsedChart, types: TypeTable, step: str, named: Mapping[str, str] | None = None,
+        shared: Mapping[int, SharedCell] | None = None,
+    ) -> None:  # fmt: skip
         self.chart = chart
         self.rules = NumberRules(chart.language.name != "MATLAB", chart.drawn.saturates)
-        self.memory = ChartMemory(types, self.rules)
+        self.memory = ChartMemory(types, self.rules, shared or {})
         self.clock = ChartClock(chart, step)
         self._runner = StatementRunner(self.memory, self)
         self._persistent = {}

@@ -1,18 +1,17 @@
 """The blocks of one system at work: charts, subsystems and what is around them, step by step."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from copy import deepcopy
-from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import partial
 from typing import Protocol
 
 from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of, is_called
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.interpret.block import BlockAtWork, edge, same_number, told
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import TypeTable
+from rovercheck.checker.drawn.interpret.stores import StoresAtWork
 from rovercheck.checker.drawn.interpret.values import (
     TYPES,
     MatlabValue,
@@ -29,6 +28,7 @@ from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
 from rovercheck.checker.drawn.resets import begins_anew, resets_refused
 from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
+from rovercheck.checker.drawn.stores import MEMORY, READ, WRITE
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, SystemWiring, number_of, wired
 
 
@@ -36,6 +36,7 @@ class SharedParts(Protocol):
     """What all systems of a model share."""
 
     types: TypeTable
+    stores: StoresAtWork
     step_length: str
     named: dict[str, str]
 
@@ -46,32 +47,8 @@ class SharedParts(Protocol):
         """The value of a parameter.  Raises ``DrawnFault``."""
 
 
-@dataclass
-class BlockAtWork:
-    """A block at work: ``inputs`` are what feeds its input ports, by their numbers."""
-
-    block: DrawnBlock
-    inputs: list[tuple[str, int] | None]
-    system: "SystemAtWork | None" = None
-    chart: ChartMachine | None = None
-    control: str = ""
-    fed: tuple[str, int] | None = None
-    """What feeds its control port."""
-    trigger: str = "rising"
-    memory: MatlabValue | None = None
-    outputs: list[MatlabValue] = field(default_factory=list)
-    typed: bool = False
-    """Whether the outputs of its system have their types, also if that was not executed yet."""
-    turn: int = 0
-    """In the how many-th turn of a subsystem in its system it was executed last; 0: in none."""
-    was: list[float] = field(default_factory=list)
-    """The values of its trigger in the step before."""
-    functions: "list[SystemAtWork]" = field(default_factory=list)
-    """Of a chart its Simulink functions."""
-    calls: Mapping[str, FunctionCall | None] = field(default_factory=dict)
-    """Of a chart its events that are function calls, and what they call."""
-    called: bool = False
-    """Whether it is executed where a chart calls it, and never else."""
+OTHERS = ("Inport", "Outport", "Merge", MEMORY, READ, WRITE, *CONTROL)
+"""The kinds of blocks that do more than compute their outputs from their inputs."""
 
 
 class SystemAtWork:
@@ -79,7 +56,7 @@ class SystemAtWork:
 
     def __init__(self, system: DrawnSystem, runner: SharedParts) -> None:
         self._runner, self._turns = runner, 0
-        wiring = wired(system)
+        wiring = wired(system, runner.stores.stores.uses)
         self._nodes = [self._node(block, wiring) for block in wiring.order]
         self._by_id = {node.block.id: node for node in self._nodes}
         ends = [node for node in self._nodes if node.block.kind == "Outport"]
@@ -87,7 +64,7 @@ class SystemAtWork:
         blocks = {name: node.block for name, node in self._by_id.items()}
         for node in self._nodes:
             if node.block.kind == "Merge":
-                with _told(node):
+                with told(node):
                     merged(node.block, node.inputs, blocks)
             if node.chart is not None:
                 node.calls = self._calls_of(node.block, node.chart, wiring)
@@ -106,7 +83,8 @@ class SystemAtWork:
             if chart.notes:
                 raise DrawnFault(str(chart.notes[0]))
             runner = self._runner
-            node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named)
+            shared = runner.stores.of(chart)
+            node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named, shared)
             for function in simulink_functions(block, chart):
                 inside = SystemAtWork(function.system, runner)
                 node.functions.append(inside)
@@ -117,7 +95,7 @@ class SystemAtWork:
             node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
         elif block.kind in DELAYS:
             node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
-        elif block.kind not in BLOCKS and block.kind not in ("Inport", "Outport", "Merge", *CONTROL):
+        elif block.kind not in BLOCKS and block.kind not in OTHERS:
             raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
 
@@ -136,7 +114,7 @@ class SystemAtWork:
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
             written = chart.sample_time.strip() or "-1"
         rate = rate_of(written, self._runner.named)
-        if rate not in ("-1", "0", "inf") and not _same_number(rate, self._runner.step_length):
+        if rate not in ("-1", "0", "inf") and not same_number(rate, self._runner.step_length):
             step = self._runner.step_length
             raise DrawnFault(
                 f"the block {path} runs every {rate} s, and the model every {step} s: give them one rate"
@@ -208,7 +186,7 @@ class SystemAtWork:
         """The outputs of the system in one step."""
         for node in self._nodes:
             if not node.called:
-                with _told(node):
+                with told(node):
                     node.outputs = self._executed(node, inputs)
         found = [self._values(node)[0] for node in self._ends]
         delays = [node for node in self._nodes if node.block.kind in DELAYS]
@@ -222,9 +200,11 @@ class SystemAtWork:
             return [inputs[number_of(block) - 1]]
         if node.memory is not None:
             return [self._remembered(node)]
-        if block.kind == "Outport" or block.kind in CONTROL:
+        if block.kind in ("Outport", MEMORY, *CONTROL):
             return []
         values = self._values(node)
+        if block.kind in (READ, WRITE):
+            return self._runner.stores.executed(block, values)
         if node.chart is not None:
             return self._charted(node, node.chart, values)
         if node.system is not None:
@@ -262,7 +242,8 @@ class SystemAtWork:
     ) -> list[MatlabValue]:
         """The outputs of a system before its first step: 0 in the types that a step would give them."""
         try:
-            given = deepcopy(system, {id(self._runner): self._runner}).step(values)
+            with self._runner.stores.kept():
+                given = deepcopy(system, {id(self._runner): self._runner}).step(values)
         except DrawnFault:
             return node.outputs
         pairs = zip(node.outputs, given, strict=True)
@@ -303,7 +284,7 @@ class SystemAtWork:
             return any(one > 0 for one in now)
         if node.control == "trigger":
             before, node.was = node.was, now
-            return any(_edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
+            return any(edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
         raise DrawnFault(f"a subsystem that is controlled by {node.control} is not known here")
 
     def _charted(
@@ -332,7 +313,7 @@ class SystemAtWork:
             return  # nothing is connected
         caller.outputs = outputs_of(caller.chart)
         node = self._by_id[call.target]
-        with _told(node):
+        with told(node):
             values = self._values(node)
             if node.chart is not None:
                 self._feed(node.chart, values)
@@ -353,16 +334,7 @@ class SystemAtWork:
         now = [] if node.fed is None else [float(one.value) for one in scalars(self._value(node.fed))]
         before, node.was = node.was, now
         found = zip(every, before, now, strict=False)
-        return [one.name for one, old, new in found if _edge(one.trigger, old, new)]
-
-
-@contextmanager
-def _told(node: BlockAtWork) -> Iterator[None]:
-    """What has no meaning is told with its block."""
-    try:
-        yield
-    except DrawnFault as fault:
-        raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+        return [one.name for one, old, new in found if edge(one.trigger, old, new)]
 
 
 def _executed(
@@ -373,25 +345,10 @@ def _executed(
     return dict(zip(function.outputs, found, strict=True))
 
 
-def _same_number(one: str, other: str) -> bool:
-    try:
-        return Fraction(one) == Fraction(other)
-    except (ValueError, ZeroDivisionError):
-        return False
-
-
 def _port(node: BlockAtWork) -> tuple[str, int]:
     port = node.inputs[0]
     assert port is not None
     return port
-
-
-def _edge(kind: str, before: float, now: float) -> bool:
-    """Whether a signal rises or falls through 0 as a trigger of a kind asks for."""
-    if kind in ("function call", "function-call"):
-        raise DrawnFault("an event that is a function call, and a signal with edges comes in")
-    rises, falls = before <= 0 < now, before > 0 >= now
-    return {"rising": rises, "falling": falls}.get(kind, rises or falls)
 
 
 __all__ = ["SystemAtWork"]

@@ -21,6 +21,7 @@ from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.records import DrawnSystem
 from rovercheck.checker.drawn.resets import begins_anew, resets_refused
+from rovercheck.checker.drawn.stores import MEMORY, READ, WRITE
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of
@@ -52,8 +53,15 @@ class SystemWriter(CalledBlockWriter):
         block = node.block
         if block.kind == "Inport":
             node.outputs = [given[number_of(block) - 1]]
-        elif node.memory is not None or block.kind == "Outport" or block.kind in CONTROL:
+        elif node.memory is not None or block.kind in ("Outport", MEMORY, *CONTROL):
             return []
+        elif block.kind == READ:
+            read, component = self.context.stores.read(block, self._named(block))
+            node.outputs = [read]
+            self.own |= component.written.keys()
+            return [component]
+        elif block.kind == WRITE:
+            return [self.context.stores.write(block, self._named(block), self._values(node)[0])]
         elif block.chart:
             return self._chart(node)
         elif block.kind == "SubSystem" and block.system is not None:
