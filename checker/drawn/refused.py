@@ -117,8 +117,6 @@ def _chart(chart: DrawnChart, parts: Parts) -> Iterator[DrawingNote]:
         yield _note(chart, "the chart", "super step semantics. Switch it off in the properties of the chart")
     if chart.update == "continuous":
         yield _note(chart, "the chart", "an update in continuous time. Make it discrete, or inherited")
-    if chart.machine == "Moore":
-        yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
     named = [one.name for one in chart.content.data if one.activity_of == 0]
     if chart.activity_output and not named:
         text = f"of its active state, {chart.activity_output}, which is no datum of it. Give it one"

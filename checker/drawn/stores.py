@@ -5,12 +5,11 @@ it.
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, is_dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 
 from rovercheck.checker.drawn.faults import DrawnFault
-from rovercheck.checker.drawn.grammar.actions import Assignment, ForLoop, Increment
-from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Indexed, Member, Name
+from rovercheck.checker.drawn.grammar.trees import assigned_names
 from rovercheck.checker.drawn.parsed import ParsedChart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnData, DrawnSystem
 from rovercheck.checker.drawn.store_order import StoreUse
@@ -125,43 +124,14 @@ def _found(seen: Mapping[str, str], name: str, where: str) -> str:
 
 def _written(chart: ParsedChart) -> Iterator[str]:
     """The names that the texts of a chart may assign to."""
-    things: list[object] = [one.label for one in chart.transitions]
+    yield from assigned_names([one.label for one in chart.transitions])
     for node in chart.root.every():
-        things += [node.sections, node.on_events]
+        yield from assigned_names(node.sections, node.on_events)
         for function in node.functions.values():
-            things.append(function.script)
-            things += [] if function.flow is None else [one.label for one in function.flow.defaults]
-    waiting = things
-    while waiting:
-        one = waiting.pop()
-        match one:
-            case Assignment(targets):
-                yield from (_target(target) for target in targets if target is not None)
-            case Increment(target):
-                yield _target(target)
-            case ForLoop(variable, _, body):
-                yield variable
-                waiting += body
-            case Mapping():
-                waiting += one.values()
-            case Sequence() if not isinstance(one, str):
-                waiting += one
-            case _ if is_dataclass(one) and not isinstance(one, type | Expression):
-                waiting += [getattr(one, name) for name in one.__dataclass_fields__]
-
-
-def _target(target: Expression) -> str:
-    """The name of the datum that an assignment changes."""
-    match target:
-        case Name(name):
-            return name
-        case Member(owner):
-            return _target(owner)
-        case Applied(function):
-            return _target(function)
-        case Indexed(array):
-            return _target(array)
-    return ""
+            yield from assigned_names(function.script)
+            yield from assigned_names(
+                [] if function.flow is None else [t.label for t in function.flow.defaults]
+            )
 
 
 def _store(block: DrawnBlock) -> str:

@@ -10,13 +10,14 @@ from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.packages import Layout
 from tests.drawn.two_readings import Row, compared
 from tests.simulink.by_hand.calls import CALLS
+from tests.simulink.by_hand.machines import MACHINES
 from tests.simulink.by_hand.models import ByHand
 from tests.simulink.by_hand.numbers import NUMBERS
 from tests.simulink.by_hand.states import STATES
 from tests.simulink.by_hand.stores import STORES
 from tests.simulink.by_hand.times import TIMES
 
-MODELS = (*STATES, *TIMES, *NUMBERS, *CALLS, *STORES)
+MODELS = (*STATES, *TIMES, *NUMBERS, *CALLS, *STORES, *MACHINES)
 LAYOUTS: tuple[Layout, ...] = ("parts", "inline")
 ROWS = 200
 

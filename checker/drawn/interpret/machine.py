@@ -95,6 +95,7 @@ class ChartMachine(ChartFunctions):
             if event:
                 self.clock.saw(event, self.active)
             if self.begun:
+                self._give()
                 self._execute_root()
             else:
                 self._first()
@@ -112,6 +113,12 @@ class ChartMachine(ChartFunctions):
                 self._enter_children(root, [])
         else:
             self._flow(root)
+
+    def _give(self) -> None:
+        """A Moore chart computes its outputs before it takes transitions: outer states before inner ones."""
+        for node in self.chart.root.every():
+            if node in self.active:
+                self._runner.run(node.sections.get(SectionKind.STATE, ()), self._frame(node))
 
     def _execute_root(self) -> None:
         root = self.chart.root
