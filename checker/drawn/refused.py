@@ -16,6 +16,7 @@ from rovercheck.checker.drawn.records import (
     DrawnSystem,
     DrawnTransition,
 )
+from rovercheck.checker.drawn.resets import states_refused
 from rovercheck.checker.drawn.type_names import plain_type
 from rovercheck.checker.drawn.wiring import CONTROL
 
@@ -69,19 +70,21 @@ def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
     parts = {one.path: one for one in model.charts}
     for chart in model.charts:
         yield from _chart(chart, parts)
-    yield from _blocks(model.system)
+    yield from _blocks(model.system, False, parts)
     for one in model.data:
         text = "it is of all charts together. Give each chart its own, and connect them."
         yield DrawingNote("refused", model.name, f"the datum {one.name}", text, "", one.ssid, one.line)
 
 
-def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
+def _blocks(system: DrawnSystem, controlled: bool, parts: Parts) -> Iterator[DrawingNote]:
+    """What is refused in a system, which is executed in some steps only if it is ``controlled``."""
+    controlled = controlled or any(one.kind in CONTROL for one in system.blocks)
     for block in system.blocks:
         name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
-        for text in _of_block(block, system):
+        for text in (*_of_block(block, system), *states_refused(block, controlled, parts)):
             yield DrawingNote("refused", name, what, text, system.part, None, block.line)
         for inner in block.systems():
-            yield from _blocks(inner)
+            yield from _blocks(inner, controlled, parts)
 
 
 def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.records import DrawnBlock
 
+MEMORY, READ, WRITE = "DataStoreMemory", "DataStoreRead", "DataStoreWrite"
+
 
 @dataclass(frozen=True)
 class StoreUse:
@@ -82,4 +84,4 @@ def _name(block: DrawnBlock) -> str:
     return " ".join(block.path.split())
 
 
-__all__ = ["StoreUse", "Uses", "order_by_stores", "used_by"]
+__all__ = ["MEMORY", "READ", "WRITE", "StoreUse", "Uses", "order_by_stores", "used_by"]

@@ -12,10 +12,9 @@ from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.trees import assigned_names
 from rovercheck.checker.drawn.parsed import ParsedChart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnData, DrawnSystem
-from rovercheck.checker.drawn.store_order import StoreUse
+from rovercheck.checker.drawn.store_order import MEMORY, READ, WRITE, StoreUse
 from rovercheck.checker.drawn.type_names import plain_type
 
-MEMORY, READ, WRITE = "DataStoreMemory", "DataStoreRead", "DataStoreWrite"
 DATA_STORE = "data store"
 """The scope of such data of a chart."""
 INHERITED = "Inherit: auto"
@@ -142,4 +141,4 @@ def _name(block: DrawnBlock) -> str:
     return " ".join(block.path.split())
 
 
-__all__ = ["CHANGES_OF_STORES", "DATA_STORE", "MEMORY", "READ", "WRITE", "DataStores", "data_stores"]
+__all__ = ["CHANGES_OF_STORES", "DATA_STORE", "DataStores", "data_stores"]

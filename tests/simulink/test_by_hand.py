@@ -13,11 +13,12 @@ from tests.simulink.by_hand.calls import CALLS
 from tests.simulink.by_hand.machines import MACHINES
 from tests.simulink.by_hand.models import ByHand
 from tests.simulink.by_hand.numbers import NUMBERS
+from tests.simulink.by_hand.resets import RESETS
 from tests.simulink.by_hand.states import STATES
 from tests.simulink.by_hand.stores import STORES
 from tests.simulink.by_hand.times import TIMES
 
-MODELS = (*STATES, *TIMES, *NUMBERS, *CALLS, *STORES, *MACHINES)
+MODELS = (*STATES, *TIMES, *NUMBERS, *CALLS, *STORES, *MACHINES, *RESETS)
 LAYOUTS: tuple[Layout, ...] = ("parts", "inline")
 ROWS = 200
 

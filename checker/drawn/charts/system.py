@@ -104,6 +104,9 @@ class LanguageSystemWriter(SystemWriter):
             return made
         return [Enabled(self._any_event(node, chart), *made, name=name), *self._edges(node)]
 
+    def _first_of_all(self, name: str, on: Var, components: Sequence[Component]) -> Block:
+        raise NotLowered(f"the states of {name} begin anew when it is enabled: set that to held")
+
     @staticmethod
     def _plain(one: Component) -> Component:
         """A block without the temporaries that formulas can do without."""

@@ -36,6 +36,8 @@ class BlockAtWork:
     """In the how many-th turn of a subsystem in its system it was executed last; 0: in none."""
     was: list[float] = field(default_factory=list)
     """The values of its trigger in the step before."""
+    on: bool = False
+    """Whether it was enabled in the step before."""
     functions: "list[SystemAtWork]" = field(default_factory=list)
     """Of a chart its Simulink functions."""
     calls: Mapping[str, FunctionCall | None] = field(default_factory=dict)

@@ -45,7 +45,7 @@ class ChartMachine(ChartFunctions):
         self.chart = chart
         self.rules = NumberRules(chart.language.name != "MATLAB", chart.drawn.saturates)
         self.memory = ChartMemory(types, self.rules, shared or {})
-        self.clock = ChartClock(chart, step)
+        self._step, self.clock = step, ChartClock(chart, step)
         self._runner = StatementRunner(self.memory, self)
         self._persistent = {}
         self.active: set[StateNode] = set()
@@ -81,6 +81,16 @@ class ChartMachine(ChartFunctions):
         """Enter the chart before the first step, if it is so drawn."""
         if self.chart.drawn.at_initialization:
             self._first()
+
+    def begin_anew(self) -> None:
+        """All is as before the first step: no state is active, and data have their initial values."""
+        self.active.clear()
+        self._child.clear()
+        self._last.clear()
+        self._persistent.clear()
+        self.begun = False
+        self.clock = ChartClock(self.chart, self._step)
+        self.memory.reset_all()
 
     def step(self, events: Sequence[str] = ()) -> None:
         """One step with the inputs as they are; with input events, one execution for each of them."""

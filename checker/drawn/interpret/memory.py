@@ -191,6 +191,11 @@ class ChartMemory:
         """Its initial value again."""
         self.values[ssid] = self._initial[ssid]
 
+    def reset_all(self) -> None:
+        """All of them, and there was no step before."""
+        self.values |= self._initial
+        self.before, self.start = {}, {}
+
     def note_start(self) -> None:
         """A step begins."""
         self.before, self.start = self.start, dict(self.values)

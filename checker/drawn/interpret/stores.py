@@ -16,7 +16,8 @@ from rovercheck.checker.drawn.interpret.values import (
 )
 from rovercheck.checker.drawn.parsed import ParsedChart
 from rovercheck.checker.drawn.records import DrawnBlock
-from rovercheck.checker.drawn.stores import READ, DataStores
+from rovercheck.checker.drawn.store_order import READ
+from rovercheck.checker.drawn.stores import DataStores
 
 
 @dataclass

@@ -26,9 +26,9 @@ from rovercheck.checker.drawn.merges import UNSAID, merged
 from rovercheck.checker.drawn.parameters import rate_of
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
-from rovercheck.checker.drawn.resets import begins_anew, resets_refused
+from rovercheck.checker.drawn.resets import begins_anew, is_reset, resets_refused
 from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
-from rovercheck.checker.drawn.stores import MEMORY, READ, WRITE
+from rovercheck.checker.drawn.store_order import MEMORY, READ, WRITE
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, SystemWiring, number_of, wired
 
 
@@ -172,6 +172,19 @@ class SystemAtWork:
             if block is not None and block.kind == "Inport" and number_of(block) <= len(inputs):
                 machine.memory.write(one.ssid, inputs[number_of(block) - 1])
 
+    def begin_anew(self) -> None:
+        """All is as before the first step: what charts and delays remember."""
+        for node in self._nodes:
+            if node.memory is not None:
+                first = self._runner.value_of(node.block.parameters.get("InitialCondition", "0"))
+                plain = node.memory.kind in TYPES
+                node.memory = each_converted(first, node.memory.kind, NumberRules()) if plain else first
+            elif node.chart is not None:
+                node.chart.begin_anew()
+                node.outputs = outputs_of(node.chart)
+            elif node.system is not None:
+                node.system.begin_anew()
+
     def machines(self) -> Iterator[ChartMachine]:
         """The charts here and in subsystems, in their order of execution."""
         for node in self._nodes:
@@ -281,7 +294,11 @@ class SystemAtWork:
             return True
         now = [float(one.value) for one in scalars(self._value(node.fed))]
         if node.control == "enable":
-            return any(one > 0 for one in now)
+            was, node.on = node.on, any(one > 0 for one in now)
+            inside = node.block.system
+            if node.on and not was and inside is not None and is_reset(inside) and node.system is not None:
+                node.system.begin_anew()
+            return node.on
         if node.control == "trigger":
             before, node.was = node.was, now
             return any(edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
