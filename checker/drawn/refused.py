@@ -6,6 +6,7 @@ from typing import Literal
 
 from rovercheck.checker.drawn.activity import tells_of_regions
 from rovercheck.checker.drawn.atomic import Parts, why_not
+from rovercheck.checker.drawn.calls import SPLIT
 from rovercheck.checker.drawn.records import (
     DrawnBlock,
     DrawnChart,
@@ -43,14 +44,14 @@ class DrawingNote:
 
 LONGEST = 100
 """Letters of the name of a state in a note."""
-GENERATOR = "a generator of function calls. Let a chart send an event in each step"
+GENERATES = (
+    "a generator of function calls that is no link to the library of Simulink. Draw the block of the library"
+)
 BLOCKS: Mapping[str, str] = {
     "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
     "ModelReference": "another model. Import that model by itself",
     "S-Function": "C code, which is not read. Put a MATLAB function in its place",
     "MATLABFcn": "an interpreted function of MATLAB. Put a MATLAB Function block in its place",
-    "FunctionCallSplit": "a split of a function call. Send an event for each block that it leads to",
-    "FunctionCallGenerator": GENERATOR,
     "FunctionCallFeedbackLatch": "a latch of a function call. Put a Unit Delay in its place",
     "FunctionCaller": "a call of a Simulink function. Call it in a chart",
     "Integrator": "continuous time. Use a discrete-time block",
@@ -92,7 +93,9 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
     if block.kind in BLOCKS:
         source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
         generates = source == "Function-Call Generator" or name == "fcncallgen"
-        yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}."
+        yield f"it is {GENERATES if generates else BLOCKS[block.kind]}."
+    if block.kind == SPLIT and block.parameters.get("OutputPortLayout", "default") != "default":
+        yield "its outputs are in another layout. Set that to default, in which the first is executed first."
     if block.parameters.get("DataStoreElements", "").strip() not in ("", "#"):
         yield "it reads or writes some elements of a data store. Read it whole, and use a selector."
     if block.parameters.get("Commented") == "through":

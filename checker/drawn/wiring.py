@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from rovercheck.checker.drawn.calls import FunctionCall, Port, function_calls
+from rovercheck.checker.drawn.calls import GENERATOR, SPLIT, Calls, FunctionCall, Port, function_calls
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 from rovercheck.checker.drawn.store_order import Uses, order_by_stores
@@ -23,12 +23,12 @@ class SystemWiring:
 
     order: list[DrawnBlock] = field(default_factory=list)
     feeds: dict[tuple[str, str], Port] = field(default_factory=dict)
-    calls: dict[Port, FunctionCall] = field(default_factory=dict)
+    calls: dict[Port, tuple[FunctionCall, ...]] = field(default_factory=dict)
 
     @property
     def called(self) -> set[str]:
         """The blocks, by their ids, that are executed where a chart calls them."""
-        return {call.target for call in self.calls.values()}
+        return {call.target for calls in self.calls.values() for call in calls}
 
     def inputs_of(self, block: DrawnBlock) -> list[Port | None]:
         """What feeds each input of a block, those too to which nothing is connected."""
@@ -115,6 +115,9 @@ class _Wires:
                 if source is not None:
                     found.feeds[target, port] = source
         found.calls = function_calls({block.id: block for block in real}, found.feeds)
+        calling = {block.id for block in real if block.kind in (SPLIT, GENERATOR)}  # which gives no signal
+        found.feeds = {end: source for end, source in found.feeds.items() if source[0] not in calling}
+        real = [block for block in real if block.kind != SPLIT]
         found.order = _ordered(real, found.feeds, _callers(found.calls), uses)
         return found
 
@@ -151,12 +154,12 @@ class _Wires:
         return (near or every)[0]
 
 
-def _callers(calls: Mapping[Port, FunctionCall]) -> dict[str, str]:
-    """Of each block that is called the chart that calls first: one called by it may call, too.
+def _callers(calls: Calls) -> dict[str, str]:
+    """Of each block that is called what calls first: one called by it may call, too.
 
     Raises ``DrawnFault`` for charts that call each other.
     """
-    by = {call.target: port[0] for port, call in calls.items()}
+    by = {call.target: port[0] for port, some in calls.items() for call in some}
     found = {}
     for target, caller in by.items():
         seen = {target}
@@ -181,7 +184,7 @@ def _ordered(
     every = {block.id: block for block in blocks}
     before: dict[str, list[str]] = {block: [] for block in every if block not in callers}
     for (target, port), (source, _) in feeds.items():
-        if target in callers and port == "trigger":
+        if target not in every or (target in callers and port == "trigger"):
             continue
         if every[target].kind not in DELAYS and source in every and every[source].kind not in DELAYS:
             first, other = callers.get(target, target), callers.get(source, source)

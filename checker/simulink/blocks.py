@@ -22,7 +22,10 @@ MOST_LETTERS = 50_000_000
 MOST_LEVELS = 64
 """Systems in each other; the deepest diagrams known have a quarter of them."""
 
-LIBRARY = {"Compare To Constant": "CompareToConstant", "Compare To Zero": "CompareToZero"}
+LIBRARY = {
+    "Compare To Constant": "CompareToConstant", "Compare To Zero": "CompareToZero",
+    "Function-Call Generator": "FunctionCallGenerator",
+}  # fmt: skip
 """Kinds of blocks of Simulink's own library that are links to it, by the type of their source."""
 
 

@@ -14,7 +14,7 @@ MaskScope = Mapping[str, str | None]
 """The values of names as expressions; ``None``: one that the file does not say."""
 VALUES = (
     "Value", "Gain", "Threshold", "InitialCondition", "InitialOutput", "LowerLimit", "UpperLimit",
-    "SampleTime", "Indices", "const",
+    "SampleTime", "Indices", "const", "sample_time", "numberOfIterations",
 )  # fmt: skip
 """Parameters of blocks that are expressions."""
 _VARIABLE = re.compile(r"(\w+)\s*=\s*([@&])(\d{1,4})")

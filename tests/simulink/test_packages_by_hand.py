@@ -294,22 +294,8 @@ def test_other_links_are_refused_by_name(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("kind", "values", "said"),
     [
-        (
-            "FunctionCallSplit",
-            {},
-            "a split of a function call. Send an event for each block that",
-        ),
-        (
-            "FunctionCallGenerator",
-            {},
-            "a generator of function calls. Let a chart send an event in each step.",
-        ),
-        (
-            "Reference",
-            {"SourceType": "Function-Call Generator"},
-            "a generator of function calls. Let a chart",
-        ),
-        ("S-Function", {"FunctionName": "fcncallgen"}, "a generator of function calls. Let a chart send an"),
+        ("Reference", {"SourceType": "Function-Call Generator"}, "a generator of function calls that is no"),
+        ("S-Function", {"FunctionName": "fcncallgen"}, "a generator of function calls that is no link to"),
         ("FunctionCallFeedbackLatch", {}, "a latch of a function call. Put a Unit Delay in its place."),
         ("FunctionCaller", {}, "a call of a Simulink function. Call it in a chart."),
     ],

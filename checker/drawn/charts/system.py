@@ -107,6 +107,9 @@ class LanguageSystemWriter(SystemWriter):
     def _first_of_all(self, name: str, on: Var, components: Sequence[Component]) -> Block:
         raise NotLowered(f"the states of {name} begin anew when it is enabled: set that to held")
 
+    def _generated(self, node: BlockNode) -> list[Component]:
+        raise NotLowered("it generates function calls: have what it calls executed in each step")
+
     @staticmethod
     def _plain(one: Component) -> Component:
         """A block without the temporaries that formulas can do without."""

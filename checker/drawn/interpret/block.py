@@ -1,6 +1,6 @@
 """One block at work, and what concerns it alone: its inputs, its memory, its edges."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -40,8 +40,8 @@ class BlockAtWork:
     """Whether it was enabled in the step before."""
     functions: "list[SystemAtWork]" = field(default_factory=list)
     """Of a chart its Simulink functions."""
-    calls: Mapping[str, FunctionCall | None] = field(default_factory=dict)
-    """Of a chart its events that are function calls, and what they call."""
+    calls: Mapping[str, Sequence[FunctionCall]] = field(default_factory=dict)
+    """Of a chart its events that are function calls, or of a generator, and what they call in this order."""
     called: bool = False
     """Whether it is executed where a chart calls it, and never else."""
 

@@ -5,7 +5,15 @@ from copy import deepcopy
 from functools import partial
 from typing import Protocol
 
-from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of, is_called
+from rovercheck.checker.drawn.calls import (
+    GENERATOR,
+    FunctionCall,
+    call_event,
+    calls_of,
+    is_called,
+    iterations,
+    rate_said,
+)
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.block import BlockAtWork, edge, same_number, told
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS
@@ -47,7 +55,7 @@ class SharedParts(Protocol):
         """The value of a parameter.  Raises ``DrawnFault``."""
 
 
-OTHERS = ("Inport", "Outport", "Merge", MEMORY, READ, WRITE, *CONTROL)
+OTHERS = (GENERATOR, "Inport", "Outport", "Merge", MEMORY, READ, WRITE, *CONTROL)
 """The kinds of blocks that do more than compute their outputs from their inputs."""
 
 
@@ -71,6 +79,8 @@ class SystemAtWork:
                 node.outputs = outputs_of(node.chart)
             elif node.system is not None:
                 node.outputs = node.system.at_rest()
+            elif node.block.kind == GENERATOR:
+                node.calls = {GENERATOR: wiring.calls.get((node.block.id, 1), ())}
 
     def _node(self, block: DrawnBlock, wiring: SystemWiring) -> BlockAtWork:
         self._check(block)
@@ -101,7 +111,7 @@ class SystemAtWork:
 
     def _calls_of(
         self, block: DrawnBlock, machine: ChartMachine, wiring: SystemWiring
-    ) -> Mapping[str, FunctionCall | None]:
+    ) -> Mapping[str, Sequence[FunctionCall]]:
         outputs = sum(one.scope == "output" for one in machine.chart.root.data.values())
         blocks = {name: node.block for name, node in self._by_id.items()}
         events = output_events(machine.chart.root)
@@ -109,8 +119,8 @@ class SystemAtWork:
 
     def _check(self, block: DrawnBlock) -> None:
         """Refuse what would make a block run at another rate, or begin anew.  Raises ``DrawnFault``."""
-        path, parameters = " ".join(block.path.split()), block.parameters
-        written = parameters.get("SampleTime", "-1")
+        path = " ".join(block.path.split())
+        written = rate_said(block)
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
             written = chart.sample_time.strip() or "-1"
         rate = rate_of(written, self._runner.named)
@@ -216,6 +226,12 @@ class SystemAtWork:
         if block.kind in ("Outport", MEMORY, *CONTROL):
             return []
         values = self._values(node)
+        if block.kind == GENERATOR:
+            written = block.parameters.get("numberOfIterations", "1")
+            number = scalars(self._runner.value_of(written))
+            for _ in range(iterations(number[0].value if len(number) == 1 else None)):
+                self._call(node, GENERATOR)
+            return []
         if block.kind in (READ, WRITE):
             return self._runner.stores.executed(block, values)
         if node.chart is not None:
@@ -325,10 +341,17 @@ class SystemAtWork:
 
         What that gives is seen by the chart at once, where it is among its inputs.
         """
-        call = caller.calls[event]
-        if call is None or caller.chart is None:
-            return  # nothing is connected
-        caller.outputs = outputs_of(caller.chart)
+        if caller.chart is not None:
+            caller.outputs = outputs_of(caller.chart)
+        for call in caller.calls[event]:
+            self._execute(call)
+        if caller.chart is None:
+            return
+        called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
+        pairs = zip(self._values(caller), called, strict=True)
+        self._feed(caller.chart, [value if by_call else None for value, by_call in pairs])
+
+    def _execute(self, call: FunctionCall) -> None:
         node = self._by_id[call.target]
         with told(node):
             values = self._values(node)
@@ -339,9 +362,6 @@ class SystemAtWork:
             elif node.system is not None:
                 self._begin(node)
                 node.outputs = node.system.step(values)
-        called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
-        pairs = zip(self._values(caller), called, strict=True)
-        self._feed(caller.chart, [value if by_call else None for value, by_call in pairs])
 
     def _events(self, node: BlockAtWork, machine: ChartMachine) -> list[str] | None:
         """The input events of this step; ``None`` for a chart without any, which runs in every step."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rovercheck.checker.drawn.calls import is_called
+from rovercheck.checker.drawn.calls import GENERATOR, is_called
 from rovercheck.checker.drawn.lower.blocks import BLOCKS
 from rovercheck.checker.drawn.lower.called_blocks import CalledBlockWriter
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
@@ -59,6 +59,8 @@ class SystemWriter(CalledBlockWriter):
             node.outputs = [given[number_of(block) - 1]]
         elif node.memory is not None or block.kind in ("Outport", MEMORY, *CONTROL):
             return []
+        elif block.kind == GENERATOR:
+            return self._generated(node)
         elif block.kind == READ:
             read, component = self.context.stores.read(block, self._named(block))
             node.outputs = [read]

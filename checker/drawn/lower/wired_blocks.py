@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from rovercheck.checker.drawn.calls import Port
+from rovercheck.checker.drawn.calls import Port, rate_said
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.blocks import either
 from rovercheck.checker.drawn.lower.context import LoweringContext
@@ -78,7 +78,7 @@ class WiredBlocks:
         control = [port for target, port in feeds if target == block.id and not port.isdigit()]
         if control:
             node.control, node.fed = control[0], feeds[block.id, control[0]]
-        rate = block.parameters.get("SampleTime", "-1")
+        rate = rate_said(block)
         if block.chart:
             chart = self.context.chart(block.chart).drawn
             rate = chart.sample_time.strip() or "-1" if chart.update == "discrete" else rate
