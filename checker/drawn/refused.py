@@ -48,7 +48,7 @@ GENERATES = (
     "a generator of function calls that is no link to the library of Simulink. Draw the block of the library"
 )
 BLOCKS: Mapping[str, str] = {
-    "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
+    "Reference": "a link to a library, which is in no file beside the model. Put it there, or break the link",
     "ModelReference": "another model. Import that model by itself",
     "S-Function": "C code, which is not read. Put a MATLAB function in its place",
     "MATLABFcn": "an interpreted function of MATLAB. Put a MATLAB Function block in its place",
@@ -60,6 +60,12 @@ BLOCKS: Mapping[str, str] = {
     "Derivative": "continuous time. Use a discrete-time block",
 }
 """Blocks without a meaning here, and the way around them."""
+LINKS: Mapping[str, str] = {
+    "changed": "a link to a library that is changed here. Restore it, or break it",
+    "plain": "a link to a block of a library that is no subsystem. Break the link, and save the model again",
+    "itself": "a link to a library in which the same link is. Break it, and save the library again",
+}
+"""Links that are not followed, though their library is there."""
 
 
 SELECTED = "Index vector (dialog)"
@@ -93,7 +99,8 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
     if block.kind in BLOCKS:
         source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
         generates = source == "Function-Call Generator" or name == "fcncallgen"
-        yield f"it is {GENERATES if generates else BLOCKS[block.kind]}."
+        link = LINKS.get(block.parameters.get("link", ""), BLOCKS[block.kind])
+        yield f"it is {GENERATES if generates else link}."
     if block.kind == SPLIT and block.parameters.get("OutputPortLayout", "default") != "default":
         yield "its outputs are in another layout. Set that to default, in which the first is executed first."
     if block.parameters.get("DataStoreElements", "").strip() not in ("", "#"):
