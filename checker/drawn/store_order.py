@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.checker.drawn.faults import DrawnFault
-from rovercheck.checker.drawn.records import DrawnBlock
+from rovercheck.checker.drawn.records import DrawnBlock, names_of
 
 MEMORY, READ, WRITE = "DataStoreMemory", "DataStoreRead", "DataStoreWrite"
 
@@ -47,10 +47,12 @@ def order_by_stores(
                 continue
             first, second = groups[one][-1], groups[other][-1]
             ranks = [_priority(block) for block in (first, second)]
-            if None in ranks or ranks[0] == ranks[1]:
+            beside = names_of(first.path)[:-1] == names_of(second.path)[:-1]
+            if None in ranks or ranks[0] == ranks[1] or not beside:
                 raise DrawnFault(
                     f"{_name(first)} and {_name(second)} use the data store {memory}, and nothing says which "
-                    "of them is executed first: connect them by a signal, or give each a Priority"
+                    "of them is executed first: connect them by a signal, or draw them beside each other, "
+                    "each with a Priority"
                 )
             early, late = sorted((one, other), key=lambda name: _priority(groups[name][-1]) or 0)
             before[late].append(early)

@@ -21,6 +21,8 @@ PORTS = ("in", "out", "enable", "trigger", "state", "lconn", "rconn", "ifaction"
 """The order in which older releases count the ports of a block."""
 MOST_LETTERS = 50_000_000
 """Letters of the paths of all blocks, in each of which there are the names of all that are around it."""
+LINKED = 500
+"""Letters that a block of a library counts for, which may be read in many places."""
 MOST_LEVELS = 64
 """Systems in each other; the deepest diagrams known have a quarter of them."""
 
@@ -103,7 +105,7 @@ class DiagramReader:
         name = one.attributes.get("Name", "")
         within = (*path, name)
         own_path = path_of(*within)
-        self._letters[0] -= len(own_path)
+        self._letters[0] -= len(own_path) + (LINKED if self._sids else 0)
         if self._letters[0] < 0:
             raise ModelError(
                 f"{self._file.place(part)}, line {one.line}: the paths of the blocks have more than "

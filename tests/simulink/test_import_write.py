@@ -1,5 +1,6 @@
 """``rovercheck import --write``: an ordinary model in Python, which is compared with what is drawn first."""
 
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -97,6 +98,49 @@ def test_properties_to_begin_with_are_written_where_there_are_none(quick: None, 
     folder = tmp_path / "lamp"
     assert run(["import", str(SAMPLES / "1_lamp" / "lamp.slx"), "--write", str(folder)]) == 0
     assert list(load(folder).properties) == ["Lamp-1", "Lamp-2", "Lamp-3"]
+
+
+RECORD = '["OVEN-3"]\nverdict = "violated"\nbecause = "The door is opened in the last second."\n'
+HAZARD = """[H-BURN]
+text = "A hand is burnt."
+severity = "critical"
+because = "It is hot."
+requirements = ["R-2"]
+"""
+
+
+@pytest.mark.parametrize("own", ["baseline.toml", "microwave.baseline.toml"])
+def test_what_is_on_record_beside_a_model_is_so_beside_the_written_one(
+    quick: None, tmp_path: Path, own: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A finding that was accepted was a new one there."""
+    for one in MICROWAVE.parent.iterdir():
+        shutil.copy(one, tmp_path)
+    (tmp_path / own).write_text(RECORD, encoding="utf-8")
+    (tmp_path / "hazards.toml").write_text(HAZARD, encoding="utf-8")
+    domains = "[domains]\nminutes = { values = [0, 1, 9] }\n"
+    (tmp_path / "microwave.domains.toml").write_text(domains, encoding="utf-8")
+    folder = tmp_path / "oven"
+    assert run(["import", str(tmp_path / "microwave.slx"), "--write", str(folder)]) == 0
+    written = load(folder)
+    assert written.on_record == load(tmp_path / "microwave.slx").on_record
+    assert written.on_record["OVEN-3"].because == "The door is opened in the last second."
+    assert written.hazards.keys() == {"H-BURN"}
+    assert (folder / "microwave.domains.toml").read_text(encoding="utf-8") == domains
+    assert "oven/baseline.toml" in capsys.readouterr().err
+
+
+def test_a_record_of_properties_that_are_not_copied_stays_behind(
+    quick: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copy(MICROWAVE, tmp_path)
+    text = (MICROWAVE.parent / "microwave_properties.py").read_text(encoding="utf-8")
+    (tmp_path / "microwave_properties.py").write_text(f"{text}\nmore = [oven]\n", encoding="utf-8")
+    (tmp_path / "baseline.toml").write_text(RECORD, encoding="utf-8")
+    assert run(["import", str(tmp_path / "microwave.slx"), "--write", str(tmp_path / "oven")]) == 0
+    told = " ".join("".join(capsys.readouterr()).split())
+    assert "baseline.toml is not copied: it speaks of properties that are not." in told
+    assert not (tmp_path / "oven" / "baseline.toml").exists()
 
 
 # --- what is refused ---------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.packages import DIAGRAM, packed
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.simulink.packages_by_hand import block, datum, model, refused, run, signal
 
 Layout = Literal["parts", "inline"]
@@ -231,3 +232,12 @@ def test_a_library_elsewhere_is_named(tmp_path: Path) -> None:
     model(around(4, link("It", 4, "lib/Scaled")), tmp_path)
     read = read_model(tmp_path / "hand.slx", [tmp_path / "far" / "lib.slx"])
     assert run(read, rows(1, 10)) == [(5,), (2,)]
+
+
+def test_libraries_that_lead_to_each_other_many_times_are_read_within_bounds(tmp_path: Path) -> None:
+    """Ten levels of ten links each would be ten thousand million blocks."""
+    for level in range(10):
+        links = "".join(link(f"L{n}", 10 + n, f"lib{level + 1}/S") for n in range(10))
+        library(tmp_path, "inline", sub("S", 3, "", "", links), name=f"lib{level}")
+    with pytest.raises(ModelError, match="the paths of the blocks have more than 50,000,000 letters"):
+        model(around(4, link("It", 4, "lib0/S")), tmp_path)
