@@ -13,8 +13,8 @@ from rovercheck.spec_model.lang.errors import ModelError
 MaskScope = Mapping[str, str | None]
 """The values of names as expressions; ``None``: one that the file does not say."""
 VALUES = (
-    "Value", "Gain", "Threshold", "InitialCondition", "InitialOutput", "LowerLimit", "UpperLimit",
-    "SampleTime", "Indices", "const", "sample_time", "numberOfIterations",
+    "Value", "Gain", "Threshold", "InitialCondition", "InitialValue", "InitialOutput", "LowerLimit",
+    "UpperLimit", "SampleTime", "Indices", "const", "sample_time", "numberOfIterations",
 )  # fmt: skip
 """Parameters of blocks that are expressions."""
 _VARIABLE = re.compile(r"(\w+)\s*=\s*([@&])(\d{1,4})")

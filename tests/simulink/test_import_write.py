@@ -14,6 +14,7 @@ from rovercheck.checker.commands.import_ import written as verb
 from rovercheck.checker.commands.import_.equality import Equality, equality_of
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.drawn.charts.system import DrawnCharts, charts_of_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.export.source.layout import Commented, Lines, call, laid_out, listed, quoted
 from rovercheck.checker.export.source.names import SourceNames
@@ -25,8 +26,10 @@ from rovercheck.spec_model.lang.chart import Block, Chart, State
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import var
+from tests.drawn.test_diagram_runs import enabled
 from tests.drawn.test_simulink_functions import counting
 from tests.drawn.test_simulink_functions import written as simulink_function
+from tests.simulink.by_hand.calls import CALLS
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "examples" / "simulink"
@@ -160,6 +163,15 @@ def test_a_chart_with_simulink_functions_has_no_words(tmp_path: Path) -> None:
     path = simulink_function("A\nen, du: r = f(u);", {"y = f(a)": counting}).save(tmp_path / "one.slx")
     with pytest.raises(NotLowered, match=r"C has the Simulink function f \(SSID 5\): write it as a MATLAB"):
         files(path)
+
+
+def test_states_that_begin_anew_and_generated_calls_have_no_words(tmp_path: Path) -> None:
+    anew = enabled(tmp_path, StatesWhenEnabling="reset").model
+    with pytest.raises(NotLowered, match="the states of Sub begin anew when it is enabled: set that to held"):
+        charts_of_model(lowered_model(anew, "one.slx"), "one.slx")
+    [generator] = [one for one in CALLS if one.name == "generator"]
+    with pytest.raises(NotLowered, match="it generates function calls: have what it calls executed in each"):
+        files(generator.draw().save(tmp_path / "two.slx"))
 
 
 def test_a_folder_with_something_in_it_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

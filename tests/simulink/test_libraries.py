@@ -1,5 +1,6 @@
 """Links to libraries that stand beside a model: the block of the library is read in their place."""
 
+import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Literal
@@ -8,6 +9,7 @@ import pytest
 
 from rovercheck.checker.drawn.records import DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.model.drawn import SimulinkModel, read_simulink
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.packages import DIAGRAM, packed
 from rovercheck.spec_model.lang.errors import ModelError
@@ -241,3 +243,19 @@ def test_libraries_that_lead_to_each_other_many_times_are_read_within_bounds(tmp
         library(tmp_path, "inline", sub("S", 3, "", "", links), name=f"lib{level}")
     with pytest.raises(ModelError, match="the paths of the blocks have more than 50,000,000 letters"):
         model(around(4, link("It", 4, "lib0/S")), tmp_path)
+
+
+def test_a_library_that_changes_changes_the_model(tmp_path: Path) -> None:
+    """A model is read once as long as no file of it changes."""
+    library(tmp_path, "inline", SCALED)
+    model(around(4, link("It", 4, "lib/Scaled", K="1")), tmp_path)
+    before = begun(read_simulink(tmp_path / "hand.slx"))
+    library(tmp_path, "inline", SCALED.replace("int16(N)", "int16(N + 1)"))
+    os.utime(tmp_path / "lib.slx", (0, 0))
+    assert (before, begun(read_simulink(tmp_path / "hand.slx"))) == ("int16((5))", "int16((5) + 1)")
+
+
+def begun(read: SimulinkModel) -> str:
+    """What the delay of a model begins with."""
+    every = read.lowered.model.system.every_block()
+    return next(one.parameters["InitialCondition"] for one in every if one.kind == "UnitDelay")

@@ -75,8 +75,8 @@ class StoreVariables:
     def read(self, block: DrawnBlock, name: str) -> tuple[Symbolic, Block]:
         """What a block gives that reads a memory: its value when the block is executed, not later."""
         cells, table = self._cells[self.stores.memory_of(block)], self._context.table
-        first = (SymbolicScalar(one.kind, _at_first(one)) for _, one in leaves(cells, name))
-        made = table.declared(name, filled(cells, first), hidden=True)
+        pairs = zip(leaves(cells, name), leaves(_first(cells, table), name), strict=True)
+        made = filled(cells, iter([_kept(leaf, cell, first) for (leaf, cell), (_, first) in pairs]))
         return made, self._copied(name, made, cells, f"What {block.path} reads.")
 
     def write(self, block: DrawnBlock, name: str, value: Symbolic) -> Block:
@@ -97,9 +97,16 @@ class StoreVariables:
         return Block(name, writer.written(), text=text)
 
 
-def _at_first(cell: SymbolicScalar) -> Expr:
-    assert isinstance(cell.expr, Var)
-    return Const(cell.expr.init, cell.expr.sort)
+def _first(cells: Symbolic, table: DataTable) -> Symbolic:
+    """What is read before anything is: 0, false, the default member."""
+    return table.kinds.first_value(cells.kind, *size_of(cells))
+
+
+def _kept(name: str, cell: SymbolicScalar, first: SymbolicScalar) -> SymbolicScalar:
+    """A variable with the values of a cell."""
+    assert isinstance(cell.expr, Var) and isinstance(first.expr, Const)
+    domain, raw = cell.expr.domain, first.expr.value
+    return SymbolicScalar(cell.kind, Var(name, domain, raw if raw in domain else cell.expr.init, hidden=True))
 
 
 def _described(value: Symbolic) -> str:

@@ -101,16 +101,14 @@ def _hidden() -> WrittenModel:
 
 
 def _hidden_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
-    outer, inner, other, out, total = 7, 3, 1, 3, 0
-    held = False
+    outer, inner, other, out, total = 7, 3, 1, 0, 0
     for u in given:
         last, a = other, outer
         if u > 0:
             out, inner = inner, (inner + u + 128) % 256 - 128
             total = other = inner
-            held = True
         outer = (outer + total + 128) % 256 - 128
-        yield (out if held else 3, a, last)
+        yield (out, a, last)
 
 
 STORES = (
