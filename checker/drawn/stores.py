@@ -9,7 +9,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from rovercheck.checker.drawn.faults import DrawnFault
-from rovercheck.checker.drawn.grammar.trees import assigned_names
+from rovercheck.checker.drawn.grammar.actions import NameDeclaration
+from rovercheck.checker.drawn.grammar.syntax import Name, parts
+from rovercheck.checker.drawn.grammar.trees import assigned_names, expressions_of
 from rovercheck.checker.drawn.parsed import ParsedChart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnData, DrawnSystem
 from rovercheck.checker.drawn.store_order import MEMORY, READ, WRITE, StoreUse
@@ -22,6 +24,7 @@ CHANGES_OF_STORES = (
     "changes of a data store, which others write within a step, are not seen here: keep what it was in a "
     "datum of the chart"
 )
+NO_GLOBAL = "it is no data store of the function: pass the value"
 _NUMBERS = re.compile(r"[-+\d.eE\s\[\],;]*")
 
 
@@ -107,9 +110,26 @@ def _read_chart(found: DataStores, chart: ParsedChart, seen: Mapping[str, str]) 
         )
     written = set(_written(chart))
     for one in data:
+        if chart.drawn.kind == "MATLAB function" and (name := _undeclared(chart, one.name)):
+            raise DrawnFault(
+                f"{chart.drawn.path}: {name} uses the data store {one.name}, and does not say so: write "
+                f"`global {one.name}` in its first line"
+            )
         path = _found(seen, one.name, chart.drawn.path)
         found.of_data[chart.drawn.path, one.name] = path
         found.uses.setdefault(chart.drawn.path, []).append(StoreUse(path, one.name in written))
+
+
+def _undeclared(chart: ParsedChart, name: str) -> str:
+    """The function of a block that uses a data store without a declaration; empty if none does."""
+    for function in chart.root.functions.values():
+        for one in function.script:
+            every = (part for text in expressions_of(one.body) for part in parts(text))
+            used = {part.name for part in every if isinstance(part, Name)}
+            said = {n for row in one.body if isinstance(row, NameDeclaration) for n in row.names}
+            if name in used and name not in said:
+                return one.signature.name
+    return ""
 
 
 def _found(seen: Mapping[str, str], name: str, where: str) -> str:
@@ -141,4 +161,4 @@ def _name(block: DrawnBlock) -> str:
     return " ".join(block.path.split())
 
 
-__all__ = ["CHANGES_OF_STORES", "DATA_STORE", "DataStores", "data_stores"]
+__all__ = ["CHANGES_OF_STORES", "DATA_STORE", "NO_GLOBAL", "DataStores", "data_stores"]

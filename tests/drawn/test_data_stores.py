@@ -98,6 +98,16 @@ def an_element(root: WrittenSystem) -> None:
     read(root, DataStoreElements="A(1)")
 
 
+def undeclared(root: WrittenSystem) -> None:
+    memory(root)
+    function = root.chart("F", "MATLAB Function", "function f\nA = A + 1;\nend\n")[1]
+    function.data("A", "data store", "double")
+
+
+def global_alone(root: WrittenSystem) -> None:
+    root.chart("F", "MATLAB Function", "function f\nglobal A\nA = 1;\nend\n")
+
+
 def at_first(root: WrittenSystem) -> None:
     memory(root)
     chart(root)[0].more = {"executeAtInitialization": 1}
@@ -125,6 +135,8 @@ def of_a_state(root: WrittenSystem) -> None:
             at_first,
             "C: it is entered before the first step, and uses the data store A: enter it in the first",
         ),
+        (undeclared, "F: f uses the data store A, and does not say so: write `global A` in its first line"),
+        (global_alone, "`global` A: it is no data store of the function: pass the value"),
         (of_a_state, "it is a data store of a state. Make it one of the chart"),
     ],
 )
@@ -174,7 +186,7 @@ def test_a_matlab_function_uses_a_data_store_as_a_chart_does(tmp_path: Path) -> 
 
     def draw(root: WrittenSystem) -> None:
         memory(root, InitialValue="4", Dimensions="[1 2]", OutDataTypeStr="int16")
-        script = "function y = f(u)\nA(2) = A(1) + A(2) + u;\ny = A(2);\nend\n"
+        script = "function y = f(u)\nglobal A\nA(2) = A(1) + A(2) + u;\ny = A(2);\nend\n"
         block, function = root.chart("F", "MATLAB Function", script)
         function.data("u", "input", "int16")
         function.data("y", "output", "int16")
