@@ -61,11 +61,12 @@ BLOCKS: Mapping[str, str] = {
 }
 """Blocks without a meaning here, and the way around them."""
 LINKS: Mapping[str, str] = {
+    "known": "a link to a block of Simulink's library that is not known here. Draw what it does in its place",
     "changed": "a link to a library that is changed here. Restore it, or break it",
     "plain": "a link to a block of a library that is no subsystem. Break the link, and save the model again",
     "itself": "a link to a library in which the same link is. Break it, and save the library again",
 }
-"""Links that are not followed, though their library is there."""
+"""Links that are not followed, though it is known to what they lead."""
 
 
 SELECTED = "Index vector (dialog)"

@@ -119,6 +119,7 @@ class DiagramReader:
             parameters |= {} if instance is None else instance.properties()
             if parameters.get("SourceBlock", "").startswith("simulink/"):
                 kind = LIBRARY.get(parameters.get("SourceType", ""), kind)
+                parameters["link"] = "known"
             elif (followed := self._followed(one, parameters, path, scope)) is not None:
                 return followed
         for name in VALUES if scope else ():

@@ -283,8 +283,8 @@ def test_a_comparison_with_no_value_of_the_type_is_refused_by_both_readings(
 def test_other_links_are_refused_by_name(tmp_path: Path) -> None:
     read = model(ports(5, "u", "y") + linked("Detect Change", True, vinit="0"), tmp_path)
     assert [str(note) for note in notes_of(read)] == [
-        "R, Reference block 5: it is a link to a library, which is in another file. Break the link, and save "
-        "the model again."
+        "R, Reference block 5: it is a link to a block of Simulink's library that is not known here. Draw "
+        "what it does in its place."
     ]
 
 

@@ -25,7 +25,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
-from rovercheck.checker.drawn.parsed import ParsedChart
+from rovercheck.checker.drawn.parsed import ParsedChart, output_events
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.domain import Domain
@@ -83,6 +83,8 @@ class LanguageSystemWriter(SystemWriter):
         context, chart = self.context, self.context.chart(node.block.chart)
         if chart.drawn.is_function:
             return [self._plain(one) for one in super()._chart(node)]
+        if output_events(chart.root):
+            raise NotLowered(f"{chart.drawn.path} has an event to other blocks: write to a datum")
         name = context.names.of_chart(chart.drawn)
         view = ChartView(chart, name, context.file, context.table.starting)
         texts = self._writer(chart, view, ProgramWriter(name, context.most))
