@@ -8,7 +8,7 @@
 #   ARGS="--system rover"   further arguments of `check`, `test`, `test-full`, `reports` and `bench`
 
 VENV ?= .venv
-JOBS ?= 3
+JOBS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1 )))
 ARGS ?=
 packages = $(shell grep -c '^[a-z0-9].*==' $(1)) packages
 NEW_ENOUGH := -c 'import sys; sys.exit(sys.version_info < (3, 11))'

@@ -1,7 +1,6 @@
 """Charts and implementation side by side: what the charts require of each step, and the first difference."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from math import isclose
@@ -107,7 +106,7 @@ class SteppedCharts:
         """Whether the system takes for granted that such inputs may come now."""
         if self._assumed is None:
             return True
-        raw = deepcopy(self._reader).step(inputs)
+        raw = self._reader.copy().step(inputs)
         return bool(evaluate(self._assumed, {**self._interpreter.valuation(), **raw}))
 
     def step(self, inputs: Values) -> ComparedStep:

@@ -107,12 +107,16 @@ def _conforming(base: Sequence[Wrong]) -> int:
 def _within(
     bench: TrialBench, cone: LogCone, number: int, parameter: Parameter | None, base: Wrong
 ) -> Wrong | None:
-    """The rows of a run that are wrong with a changed part; ``None`` if one is that was right before."""
+    """The rows of a run that are wrong with a changed part; ``None`` if one is that was right before.
+
+    Nor may it leave such a row open, unless the part does not decide that run to its end without it, either.
+    """
     found: dict[int, frozenset[tuple[str, int]]] = {}
     for row, wrong in _rows_of(bench, cone, number, parameter, base):
-        if row not in base:
+        if row in base:
+            found[row] = wrong
+        elif wrong is not NOT_DECIDED or bench.decided(number):
             return None
-        found[row] = wrong
     return found
 
 

@@ -91,11 +91,8 @@ class TrialBench:
         And, by their numbers, what it gets wrong in these runs; a run in which a number has no meaning to it
         stays as it is.
         """
-        every = [n for n, run in enumerate(self.runs) if self._end(n) < len(run)]
-        if not every:
-            return self, {}
         ends, found = dict(self.ends), dict[int, Wrong]()
-        for number in every:
+        for number in (n for n in range(len(self.runs)) if not self.decided(n)):
             end, wrong = len(self.runs[number]), dict[int, frozenset[tuple[str, int]]]()
             try:
                 for row, mismatch in self._whole.mismatches(cone, number, parameter):
@@ -107,7 +104,7 @@ class TrialBench:
                 continue
             if end > self._end(number):
                 ends[number], found[number] = end, wrong
-        return TrialBench(self.evidence, self.readings, ends), found
+        return (TrialBench(self.evidence, self.readings, ends) if found else self), found
 
     @cached_property
     def _whole(self) -> "TrialBench":
@@ -134,9 +131,9 @@ class TrialBench:
         And whether the row is wrong, and not just undecided, too.
         """
         for number, run in enumerate(self.runs):
-            end = self._end(number)
-            if end == len(run):
+            if self.decided(number):
                 continue
+            end = self._end(number)
             try:
                 rows = self._whole.mismatches(cone, number, parameter)
                 row, mismatch = next(((r, m) for r, m in rows if r >= end or m is None), (len(run), None))
@@ -144,6 +141,10 @@ class TrialBench:
                 continue
             if row >= end:
                 yield number, row, mismatch is not None
+
+    def decided(self, number: int) -> bool:
+        """Whether the part, with what was taken so far, decides a run to its end."""
+        return self._end(number) == len(self.runs[number])
 
     def _end(self, number: int) -> int:
         run = self.runs[number]

@@ -1,7 +1,6 @@
 """Search by random inputs: runs go on from where earlier runs reached something new."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from copy import deepcopy
 from dataclasses import dataclass
 from random import Random
 
@@ -138,9 +137,7 @@ class TriedRun:
         return TriedRun(machine, dict(machine.start), board.at_power_up(), board.reader(), [])
 
     def copy(self) -> "TriedRun":
-        return TriedRun(
-            self.machine, dict(self.at), dict(self.inputs), deepcopy(self.reader), list(self.given)
-        )
+        return TriedRun(self.machine, dict(self.at), dict(self.inputs), self.reader.copy(), list(self.given))
 
     def now(self) -> Mapping[str, int]:
         """The state after the last step."""

@@ -5,6 +5,7 @@ stimuli are all derived from these rows.
 """
 
 from collections.abc import Iterator, Mapping
+from copy import deepcopy
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
@@ -218,6 +219,11 @@ class InterfaceReader:
         self._updates = {v.var.name: Updates() for v in by[Carriage.UPDATE]}
         self._taken = StampsTaken(interface.taken)
         self._means = interface.records()
+
+    def copy(self) -> "InterfaceReader":
+        """One that goes on from here by itself; what remembers nothing is its own copy."""
+        remembered = self._advances, self._updates, self._taken.names, self._means
+        return deepcopy(self) if any(remembered) else self
 
     def step(self, inputs: Values) -> dict[str, int]:
         """Raw inputs of the charts.  Raises ``ModelError`` for a value that the charts give no meaning to."""

@@ -26,20 +26,29 @@ class HotAndOdd(Heater):
 """
 
 
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
-    (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (tmp_path / "firmware.py").write_text(FIRMWARE + HOTTER, encoding="utf-8")
-    return tmp_path
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("heater")
+    (made / "heater.py").write_text(HEATER, encoding="utf-8")
+    (made / "baseline.toml").write_text(BASELINE, encoding="utf-8")
+    (made / "firmware.py").write_text(FIRMWARE + HOTTER, encoding="utf-8")
+    return made
 
 
-@pytest.fixture
-def known(folder: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+@pytest.fixture(scope="module")
+def of_hot(folder: Path) -> str:
     """What is known of Hot."""
-    assert compared(folder, "Hot", "--write-known", str(folder / "known.toml")) is Exit.FAILED
-    capsys.readouterr()
-    return folder / "known.toml"
+    file = folder / "known.toml"
+    assert compared(folder, "Hot", "--write-known", str(file)) is Exit.FAILED
+    return file.read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def known(tmp_path: Path, of_hot: str) -> Path:
+    """A file of what is known."""
+    file = tmp_path / "known.toml"
+    file.write_text(of_hot, encoding="utf-8")
+    return file
 
 
 def compared(folder: Path, firmware: str, *more: str) -> Exit:

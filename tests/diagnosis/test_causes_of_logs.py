@@ -25,18 +25,24 @@ BOARD1, BOARD2 = boards()["board1"], boards()["board2"]
 
 
 class Bench:
-    """Says of conforming runs which are left open, and that all of the last run is explained."""
+    """Says of conforming runs which are left open, and that all of the last run is explained.
 
-    def __init__(self, conforming: int, left_open: int) -> None:
+    Or that a row of it is left open, where the charts as drawn decide the run to its end or not.
+    """
+
+    def __init__(self, conforming: int, left_open: int, row: int = 0, to_its_end: bool = True) -> None:
         self.runs: list[list[int]] = [[0] * 10 for _ in range(conforming + 1)]
-        self._open = left_open
+        self._open, self._row, self._to_its_end = left_open, row, to_its_end
+
+    def decided(self, number: int) -> bool:
+        return self._to_its_end or number < len(self.runs) - 1
 
     def holds(self, _cone: object, number: int, _parameter: object = None) -> bool | None:
         return None if number < self._open else True
 
     def mismatches(self, _cone: object, number: int, _parameter: object = None) -> list[object]:
         assert number == len(self.runs) - 1
-        return []
+        return [(self._row, None)] if self._row else []
 
 
 @pytest.mark.parametrize("left_open", [0, 1, 3, 4])
@@ -53,6 +59,20 @@ def test_of_ten_conforming_runs_a_change_may_leave_one_open(left_open: int) -> N
     assert (judge.mostly_right(*asked) is not None) is (left_open <= 3)
     if found is not None:
         assert judge.explained(frozenset({0}), asked[0], found) == {0}
+
+
+@pytest.mark.parametrize(
+    ("row", "to_its_end", "counts"), [(9, False, True), (9, True, False), (7, False, False)]
+)
+def test_a_run_that_is_left_open_may_be_so_from_an_earlier_row_on(
+    row: int, to_its_end: bool, counts: bool
+) -> None:
+    """A critical temperature that lasts a step longer was unnamed: a log was open one row earlier with it."""
+    bench = Bench(1, 0, row, to_its_end)
+    piece = frozenset({("temp_status", 0)})
+    judge = RowJudge({0: {(id(bench.runs[-1]), 7): piece}})
+    asked = cast(TrialBench, bench), [{}, {7: piece}], cast(LogCone, None)
+    assert (judge.all_right(*asked, None, frozenset({0})) is not None) is counts
 
 
 def test_a_run_that_cannot_be_followed_is_neither_right_nor_wrong(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,6 +18,7 @@ BY_HAND = {
     "Add a word to the language": "two independent meanings, which tests/lang compares",
     "Add a form of properties": "a monitor and a sentence, which tests/properties compares",
     "Add an operator": "tests/lang/test_operator_tables.py names what is missing",
+    "Add a rule of Simulink": "tests/simulink/test_rules.py names what a row lacks",
     "Add a dependency": "make lock asks the package index",
     "The licence": "is the owner's to choose; tests/packaging looks that none is named",
     "Habits": "tests/test_house_rules.py",

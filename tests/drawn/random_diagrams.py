@@ -95,7 +95,8 @@ class RandomDiagram:
 
     def _delay(self) -> None:
         kind, one = self.signal()
-        first = str(self.random.randint(0, 3)) if kind in ("double", "logical") else f"{kind}(2)"
+        typed = kind in ("int8", "uint8") and self.random.random() < 0.5
+        first = f"{kind}(2)" if typed else str(self.random.randint(0, 3))
         first = "true" if kind == "logical" and self.random.random() < 0.5 else first
         if kind == "logical" and first not in ("true", "0"):
             first = "false"
@@ -150,7 +151,7 @@ class RandomDiagram:
         kind, one = self.signal("int8", "double")
         total = self.block("Sum", TWO, [one], "", Inputs="++", **self._rules())
         held = self.block("Saturate", ONE, [total], kind, LowerLimit="-5", UpperLimit="7")
-        first = "1" if kind == "double" else f"{kind}(1)"
+        first = f"{kind}(1)" if self.random.random() < 0.5 else "1"
         before = self.block("UnitDelay", ONE, [held], "", InitialCondition=first)
         self.system.line(before, f"{total}/2")
 

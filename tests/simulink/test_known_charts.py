@@ -8,16 +8,10 @@ import pytest
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.drawn.two_readings import compared
-from tests.simulink.known.appliances import APPLIANCES
-from tests.simulink.known.controls import CONTROLS
-from tests.simulink.known.events import EVENTS
-from tests.simulink.known.machines import MACHINES
 from tests.simulink.known.models import Known
 from tests.simulink.known.packages import ChartText, Layout
-from tests.simulink.known.semantics import SEMANTICS
-from tests.simulink.known.supervisors import SUPERVISORS
+from tests.simulink.packages import CHARTS
 
-CHARTS = (*SEMANTICS, *EVENTS, *MACHINES, *SUPERVISORS, *APPLIANCES, *CONTROLS)
 LAYOUTS: tuple[Layout, ...] = ("R2015a", "R2024a")
 
 

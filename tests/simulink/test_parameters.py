@@ -110,6 +110,21 @@ def test_data_of_a_fixed_point_type_without_a_fraction_are_read(tmp_path: Path) 
     assert run(read, [{"a": 200}, {"a": 3}]) == [(200,), (3,)]
 
 
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("Enum: Gear", "the type Gear is not there: name the file that defines it"),
+        ("Bus: Cockpit", "the type Cockpit is not there: name the file that defines it"),
+        ("type(u)", "the type 'type(u)' is not known"),
+        ("Speed", "the type 'Speed' is not known"),
+    ],
+)
+def test_a_type_that_no_file_defines_is_refused(kind: str, said: str, tmp_path: Path) -> None:
+    text = chart("A&#xA;en: y = int8(1);", datum(3, "x", "LOCAL_DATA", kind) + datum(4, "y", "OUTPUT_DATA"))
+    made = block("SubSystem", "C", 5, "", Ports="[0, 1]", SFBlockType="Chart") + ports(5, "")
+    assert all(said in one for one in refused(model(made, tmp_path, "", text)))
+
+
 @pytest.mark.parametrize("rate", ["-1", "[-1, 0]", "0.1", "[0.1 0]", "1/10", "Ts", "[Ts, 0]", "inf", "Inf"])
 def test_a_sample_time_is_that_of_the_model_in_whatever_way_it_is_written(rate: str, tmp_path: Path) -> None:
     """Of these only -1, 0.1, 1/10 and inf were known."""

@@ -8,7 +8,6 @@ from rovercheck.checker.drawn.charts.chart import ChartBuilder, ChartLabels
 from rovercheck.checker.drawn.charts.substitution import actions_after
 from rovercheck.checker.drawn.charts.texts import ChartTexts, UnnamedTexts
 from rovercheck.checker.drawn.charts.tidy import tidied, tidied_actions
-from rovercheck.checker.drawn.lower.conversions import each_converted
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -175,9 +174,7 @@ class LanguageSystemWriter(SystemWriter):
         """The inputs of a chart: variables, or formulas that have their names."""
         kinds, data = self.context.table.kinds, chart.root.data.values()
         for one, value in zip((d for d in data if d.scope == "input"), values, strict=False):
-            kind = kinds.kind(one.type)
-            plain = kind and not kind.startswith("Bus: ")
-            fitted = each_converted(value, kind, made.rules, kinds) if plain else value
+            fitted = self._fitted(value, one, made.rules)
             free = one.name not in self.context.names.data_written
             scalars = [self._named_input(leaf, s) if free else s for leaf, s in leaves(fitted, one.name)]
             made.cells[one.ssid] = filled(fitted, iter(scalars))

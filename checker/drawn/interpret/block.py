@@ -44,6 +44,8 @@ class BlockAtWork:
     """Of a chart its events that are function calls, or of a generator, and what they call in this order."""
     called: bool = False
     """Whether it is executed where a chart calls it, and never else."""
+    tried: bool = False
+    """Whether it is executed in any step, whatever controls it."""
 
 
 @contextmanager

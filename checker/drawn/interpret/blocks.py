@@ -13,6 +13,7 @@ from rovercheck.checker.drawn.interpret.memory import BUS, TypeTable
 from rovercheck.checker.drawn.interpret.operations import binary, unary
 from rovercheck.checker.drawn.interpret.values import (
     FLOATS,
+    LITERAL,
     WHOLE,
     ArrayOf,
     MatlabValue,
@@ -104,7 +105,8 @@ def _constant(block: DrawnBlock, _: Inputs, types: TypeTable, value_of: ValueOf)
 
 
 def _ground(block: DrawnBlock, _: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
-    return [double(0)]
+    """0 in the type of what it is computed with."""
+    return [Scalar(LITERAL, 0)]
 
 
 def _logic(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
@@ -182,10 +184,10 @@ def _signs(text: str, sign: str) -> str:
 
 def _gain(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:
     value, factor = inputs[0], value_of(block.parameters.get("Gain", "1"))
-    if value.kind in FLOATS:
+    if value.kind in FLOATS or (value.kind == LITERAL and _is_whole(factor)):
         factor = each_converted(factor, value.kind, WRAPS)
     said = block.parameters.get("OutDataTypeStr", "Inherit: Inherit via internal rule")
-    whole = all(one.value == int(one.value) for one in scalars(factor))
+    whole = _is_whole(factor)
     if value.kind in WHOLE and not whole and "internal rule" in said:
         raise DrawnFault(f"an integer times a fraction is a fixed-point number: {SAY_TYPE}")
     if value.kind not in WHOLE or (whole and said.startswith("Inherit")):
@@ -193,6 +195,10 @@ def _gain(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf
     real, by = (each_converted(one, "double", WRAPS) for one in (value, factor))
     exact = binary(".*", real, by, WRAPS)
     return [as_said(block, exact, value.kind if said.startswith("Inherit") else types.kind(said))]
+
+
+def _is_whole(value: MatlabValue) -> bool:
+    return all(one.value == int(one.value) for one in scalars(value))
 
 
 def _switch(block: DrawnBlock, inputs: Inputs, types: TypeTable, value_of: ValueOf) -> list[MatlabValue]:

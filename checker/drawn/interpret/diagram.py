@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.syntax import Expression
 from rovercheck.checker.drawn.interpret.blocks import parsed_value
+from rovercheck.checker.drawn.interpret.delays import settle
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
@@ -55,7 +56,10 @@ class ModelRunner:
         self._outports = [ends[number] for number in sorted(ends)]
         self.machines = list(self._top.machines())
         """The charts at work, in their order of execution."""
-        self._top.initialize([self._at_rest(port) for port in self._inports])
+        at_rest = [self._at_rest(port) for port in self._inports]
+        with self.stores.kept():
+            settle(self._top, at_rest, self)
+        self._top.initialize(at_rest)
 
     def inputs(self) -> Iterator[str]:
         """The flat names of all inputs, in the order of their ports."""

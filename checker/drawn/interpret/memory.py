@@ -8,6 +8,7 @@ from typing import Protocol
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.values import (
     FALSE,
+    LITERAL,
     TYPES,
     MatlabValue,
     NumberRules,
@@ -156,6 +157,15 @@ class ChartMemory:
             return array([one] * (size[0] * size[1]), *size)
         return made
 
+    def receive(self, ssid: int, value: MatlabValue) -> None:
+        """A signal: an inherited size is that of what comes, and a vector fits in either direction."""
+        size, came, kind = shape(self._initial[ssid]), shape(value), self._kinds[ssid]
+        if kind and inherits_size(self._data[ssid]) and not isinstance(value, Structure):
+            self._initial[ssid] = self.types.initial(kind, *came)
+        elif came == size[::-1] != size and 1 in size:
+            value = array(scalars(value), *size)
+        self.write(ssid, value)
+
     def write(self, ssid: int, value: MatlabValue) -> None:
         """A new value, in the type of the datum; one without a type takes that of its first value."""
         if ssid in self.shared:
@@ -163,8 +173,9 @@ class ChartMemory:
             self._kinds[ssid], self._initial[ssid] = cell.value.kind, cell.value
         kind = self._kinds[ssid]
         if not kind:
-            kind = self._kinds[ssid] = value.kind
-            kind = self._kinds[ssid] = "double" if kind == "literal" else kind
+            kind = self._kinds[ssid] = "double" if value.kind == LITERAL else value.kind
+            if inherits_size(self._data[ssid]) and not isinstance(value, Structure):
+                self._initial[ssid] = self.types.initial(kind, *shape(value))
         if isinstance(value, Structure) or kind.startswith(BUS):
             if value.kind != kind:
                 raise DrawnFault(f"{self._data[ssid].name} is of {kind}, and its value of {value.kind}")
@@ -211,6 +222,11 @@ def _initial_of(one: DrawnData, chart: ParsedChart, named: Mapping[str, str]) ->
             f"`{one.name} = ...`"
         )
     return named[one.name]
+
+
+def inherits_size(one: DrawnData) -> bool:
+    """Whether the size of a datum is that of its signal."""
+    return one.size.strip() in ("", "-1")
 
 
 def datum_of(node: StateNode, name: str) -> DrawnData | None:

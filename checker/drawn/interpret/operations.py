@@ -107,7 +107,7 @@ def _kind(sign: str, left: Scalar, right: Scalar, rules: NumberRules) -> str:
     """The type of a result."""
     if left.kind.startswith("Enum:") or right.kind.startswith("Enum:"):
         raise DrawnFault(f"{sign} computes with no member of an enumeration: convert it, as in int32(x)")
-    if rules.c:
+    if rules.c or left.kind == right.kind == LITERAL:
         return _kind_in_c(left, right)
     kinds = dict.fromkeys(one.kind for one in (left, right) if one.kind in WHOLE)
     if len(kinds) > 1:
@@ -162,7 +162,7 @@ def _divided(one: float, other: float, kind: str, rules: NumberRules) -> int:
     if other == 0:
         if rules.c:
             raise DrawnFault("a division by 0")
-        low, high = WHOLE[kind]
+        low, high = WHOLE.get(kind, (0, 0))
         return 0 if one == 0 or isnan(one) else high if one > 0 else low
     if isinstance(one, int) and isinstance(other, int):
         whole, rest = divmod(abs(one), abs(other))

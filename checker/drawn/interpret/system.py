@@ -17,6 +17,7 @@ from rovercheck.checker.drawn.calls import (
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.block import BlockAtWork, edge, same_number, told
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS
+from rovercheck.checker.drawn.interpret.delays import without_type
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import TypeTable
 from rovercheck.checker.drawn.interpret.stores import StoresAtWork
@@ -104,7 +105,7 @@ class SystemAtWork:
             ports_ = [one for one in block.system.blocks if one.kind == "TriggerPort"]
             node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
         elif block.kind in DELAYS:
-            node.memory = self._runner.value_of(block.parameters.get("InitialCondition", "0"))
+            node.memory = without_type(self._runner.value_of(block.parameters.get("InitialCondition", "0")))
         elif block.kind not in BLOCKS and block.kind not in OTHERS:
             raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
@@ -180,7 +181,14 @@ class SystemAtWork:
         for one, port in zip(data, node.inputs, strict=False):
             block = None if port is None else self._by_id[port[0]].block
             if block is not None and block.kind == "Inport" and number_of(block) <= len(inputs):
-                machine.memory.write(one.ssid, inputs[number_of(block) - 1])
+                machine.memory.receive(one.ssid, inputs[number_of(block) - 1])
+
+    def nodes(self) -> Iterator[BlockAtWork]:
+        """The blocks here and in subsystems, in their order of execution."""
+        for node in self._nodes:
+            yield node
+            for one in (*node.functions, node.system):
+                yield from () if one is None else one.nodes()
 
     def begin_anew(self) -> None:
         """All is as before the first step: what charts and delays remember."""
@@ -197,18 +205,12 @@ class SystemAtWork:
 
     def machines(self) -> Iterator[ChartMachine]:
         """The charts here and in subsystems, in their order of execution."""
-        for node in self._nodes:
-            if node.chart is not None:
-                yield node.chart
-            for one in node.functions:
-                yield from one.machines()
-            if node.system is not None:
-                yield from node.system.machines()
+        return (node.chart for node in self.nodes() if node.chart is not None)
 
     def step(self, inputs: Sequence[MatlabValue]) -> list[MatlabValue]:
         """The outputs of the system in one step."""
         for node in self._nodes:
-            if not node.called:
+            if node.tried or not node.called:
                 with told(node):
                     node.outputs = self._executed(node, inputs)
         found = [self._values(node)[0] for node in self._ends]
@@ -222,7 +224,7 @@ class SystemAtWork:
         if block.kind == "Inport":
             return [inputs[number_of(block) - 1]]
         if node.memory is not None:
-            return [self._remembered(node)]
+            return [node.memory]
         if block.kind in ("Outport", MEMORY, *CONTROL):
             return []
         values = self._values(node)
@@ -281,11 +283,6 @@ class SystemAtWork:
             first(one.kind, *shape(one)) if now.kind == "double" != one.kind else now for now, one in pairs
         ]
 
-    @staticmethod
-    def _remembered(node: BlockAtWork) -> MatlabValue:
-        assert node.memory is not None
-        return node.memory
-
     def _values(self, node: BlockAtWork) -> list[MatlabValue]:
         """Of its inputs; one that is not connected is 0, in the type of the first that is."""
         found = [None if port is None else self._value(port) for port in node.inputs]
@@ -304,6 +301,8 @@ class SystemAtWork:
 
     def _runs(self, node: BlockAtWork) -> bool:
         """Whether a subsystem is executed in this step."""
+        if node.tried:
+            return True
         if is_called(node.block):
             return False  # and nothing calls it
         if not node.control or node.fed is None:
@@ -332,7 +331,7 @@ class SystemAtWork:
         data = machine.chart.root.data.values()
         for one, value in zip((d for d in data if d.scope == "input"), values, strict=False):
             if value is not None:
-                machine.memory.write(one.ssid, value)
+                machine.memory.receive(one.ssid, value)
 
     # --- function calls ------------------------------------------------------------------------------------
 

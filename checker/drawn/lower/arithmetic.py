@@ -132,6 +132,8 @@ def _decided(sign: str, one: Expr, other: Expr) -> bool | None:
 
 
 def _kind(sign: str, left: SymbolicScalar, right: SymbolicScalar) -> str:
+    if left.kind == right.kind == UNTYPED:
+        return UNTYPED
     kinds = dict.fromkeys(one.kind for one in (left, right) if one.kind in INTEGERS)
     if len(kinds) > 1:
         raise NotLowered(f"{sign} between {' and '.join(kinds)}: MATLAB takes integers of one type only")

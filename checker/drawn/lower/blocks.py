@@ -27,6 +27,7 @@ from rovercheck.checker.drawn.lower.rounding import (
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
     REALS,
+    UNTYPED,
     NotLowered,
     Symbolic,
     SymbolicScalar,
@@ -219,12 +220,12 @@ def _quotient(block: DrawnBlock, one: Symbolic, other: Symbolic, types: BlockTyp
 
 def _gain(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     value, factor = inputs[0], types.value_of(block.parameters.get("Gain", "1"))
-    if value.kind not in INTEGERS:
-        if value.kind in REALS:
-            factor = each_converted(factor, value.kind, WRAPS, types.kinds)
-        return [types.typed(block, binary(".*", value, factor, types.rules(block)))]
     numbers, said = [one.constant for one in flat(factor)], _said(block)
     whole = all(one is not None and one.denominator == 1 for one in numbers)
+    if value.kind not in INTEGERS:
+        if value.kind in REALS or (value.kind == UNTYPED and whole):
+            factor = each_converted(factor, value.kind, WRAPS, types.kinds)
+        return [types.typed(block, binary(".*", value, factor, types.rules(block)))]
     if whole and said.startswith("Inherit"):
         return [binary(".*", value, factor, types.rules(block))]
     if "internal rule" in said:
@@ -352,7 +353,7 @@ def _magnitude(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Sym
 
 
 BLOCKS: Mapping[str, BlockFormula] = {
-    "Constant": _constant, "Ground": lambda block, inputs, types: [number("double", 0)], "Logic": _logic,
+    "Constant": _constant, "Ground": lambda block, inputs, types: [number(UNTYPED, 0)], "Logic": _logic,
     "RelationalOperator": _relation, "CompareToConstant": _compared, "CompareToZero": _compared,
     "Sum": _sum, "Product": _product, "Gain": _gain, "Switch": _switch,
     "DataTypeConversion": _conversion, "BusSelector": _selected, "BusCreator": _bus, "Mux": _mux,

@@ -3,15 +3,28 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 
-from rovercheck.checker.drawn.lower.conversions import each_converted
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.program import ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import Symbolic, filled, folded, leaves, size_of, truth
+from rovercheck.checker.drawn.lower.symbols import (
+    NotLowered,
+    Symbolic,
+    SymbolicStructure,
+    filled,
+    flat,
+    folded,
+    leaves,
+    matrix,
+    single_of,
+    size_of,
+    truth,
+)
 from rovercheck.checker.drawn.lower.triggers import TriggerWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.parsed import ParsedChart, output_events
+from rovercheck.checker.drawn.records import DrawnData
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of
 from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
@@ -129,9 +142,7 @@ class ChartBlockWriter(TriggerWriter):
         kinds, data = self.context.table.kinds, chart.root.data.values()
         inputs = (one for one in data if one.scope == "input")
         for one, value, is_read_anew in zip(inputs, values, changes, strict=False):
-            kind = kinds.kind(one.type)
-            plain = kind and not kind.startswith("Bus: ")
-            fitted = each_converted(value, kind, made.rules, kinds) if plain else value
+            fitted = self._fitted(value, one, made.rules)
             scalars = [
                 s if is_read_anew or isinstance(s.expr, Var) else made.writer.kept(one.name, s)
                 for _, s in leaves(fitted, "")
@@ -140,6 +151,13 @@ class ChartBlockWriter(TriggerWriter):
         for one in data:
             if one.scope == "input" and one.ssid not in made.cells:
                 made.cells[one.ssid] = kinds.first_value(kinds.kind(one.type) or "double", *sizes(one.size))
+
+    def _fitted(self, value: Symbolic, one: DrawnData, rules: IntegerRules) -> Symbolic:
+        """A signal in the type of an input, and in its size."""
+        kinds = self.context.table.kinds
+        kind = kinds.kind(one.type)
+        plain = kind and not kind.startswith("Bus: ")
+        return _in_size(each_converted(value, kind, rules, kinds) if plain else value, one)
 
     @staticmethod
     def _input_events(chart: ParsedChart) -> list[tuple[str, str]]:
@@ -156,6 +174,19 @@ class ChartBlockWriter(TriggerWriter):
     def _any_event(self, node: BlockNode, chart: ParsedChart) -> Expr:
         every = self._input_events(chart)
         return folded(any_of(*self._edge_conditions(node, [trigger for _, trigger in every])))
+
+
+def _in_size(value: Symbolic, one: DrawnData) -> Symbolic:
+    """A signal in the size of an input: a vector fits in either direction, a scalar is each element."""
+    came, wanted = size_of(value), sizes(one.size)
+    if one.size.strip() in ("", "-1") or came == wanted or isinstance(value, SymbolicStructure):
+        return value
+    if came == (1, 1):
+        return matrix([single_of(value)] * (wanted[0] * wanted[1]), *wanted)
+    if came == wanted[::-1] and 1 in came:
+        return matrix(flat(value), *wanted)
+    told, has = (f"{rows}x{columns}" for rows, columns in (came, wanted))
+    raise NotLowered(f"{one.name} is of {has}, and its value of {told}")
 
 
 __all__ = ["ChartBlockWriter"]

@@ -6,7 +6,7 @@ from rovercheck.checker.drawn.calls import FUNCTION_CALL
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
-from rovercheck.checker.drawn.lower.data import DataTable
+from rovercheck.checker.drawn.lower.data import DataTable, SizeLearned
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
@@ -118,7 +118,10 @@ class ChartDataWriter(StatementWriter):
             cells = self.cells[one.ssid]
             name = next(leaf for leaf, _ in leaves(cells, self._datum_name(one)))
             if not one.initial.strip():
-                self.table.saw(self._datum_name(one), kind, *size_of(value))
+                seen, called = (kind, *size_of(value)), self._datum_name(one)
+                self.table.saw(called, *seen)
+                if size_of(cells) == (1, 1) != size_of(value) and self.table.kind_of(called) == seen:
+                    raise SizeLearned
             if cells.kind != kind and self.table.kind_of(self._datum_name(one)) != (
                 cells.kind,
                 *size_of(cells),

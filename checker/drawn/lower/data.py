@@ -57,6 +57,10 @@ class LearnedRange:
         return fixed((self.low // step) * step, -(-self.high // step) * step, step)
 
 
+class SizeLearned(Exception):
+    """A datum has another size than this attempt began with."""
+
+
 @dataclass
 class DataTable:
     """What is known of the data of a model, over all attempts to lower it.
@@ -86,6 +90,12 @@ class DataTable:
     """Raw values that variables have when the first step begins, where initialization changes them."""
     at_rest: dict[str, int] = field(default_factory=dict)
     """Raw values of data before that."""
+    delays: set[str] = field(default_factory=set)
+    """Delays of which the type is known."""
+    waiting: dict[str, tuple[int, int]] = field(default_factory=dict)
+    """The sizes of those of which it was not in this attempt."""
+    settled: bool = False
+    """Whether some became known in this attempt, and were without a type until then."""
     declared_names: set[str] = field(default_factory=set)
     """Every variable that a domain could be given to."""
     changed: set[str] = field(default_factory=set)
@@ -163,6 +173,24 @@ class DataTable:
             self.kinds_of[name] = kind, rows, columns
             self.changed.add(name)
 
+    def saw_delay(self, name: str, kind: str, size: tuple[int, int], untyped: bool) -> None:
+        """A value of that type came into a delay, which has begun without one if it was ``untyped``."""
+        if kind == UNTYPED:
+            self.waiting[name] = size
+        else:
+            self.settled |= untyped and name not in self.kinds_of
+            self.delays.add(name)
+            self.saw(name, kind, *size)
+
+    def settle(self) -> None:
+        """Once types of delays are known, those of other data follow anew; what nothing tells is double."""
+        if not self.settled and self.changed <= self.ranges.keys():
+            for name, size in self.waiting.items():
+                self.saw_delay(name, "double", size, True)
+        if self.settled:
+            self.kinds_of = {name: kind for name, kind in self.kinds_of.items() if name in self.delays}
+            self.ranges, self.structures, self.starting = {}, {}, {}
+
     def saw_value(self, name: str, value: Symbolic) -> None:
         """A value was written to a persistent variable; a structure that a script makes has elements."""
         if not isinstance(value, SymbolicStructure):
@@ -176,6 +204,7 @@ class DataTable:
     def begin(self) -> None:
         """A new attempt."""
         self.changed, self.met = set(), set()
+        self.waiting, self.settled = {}, False
         self.notes, self.remarks = {}, {}
 
     def shortened(self) -> bool:
@@ -205,4 +234,4 @@ class DataTable:
         ]
 
 
-__all__ = ["DataTable"]
+__all__ = ["DataTable", "SizeLearned"]

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from rovercheck.checker.drawn.lower.attempt import LoweringAttempt
-from rovercheck.checker.drawn.lower.data import DataTable
+from rovercheck.checker.drawn.lower.data import DataTable, SizeLearned
 from rovercheck.checker.drawn.lower.kinds import KindTable
 from rovercheck.checker.drawn.lower.lowered import LoweredModel, RangeNotKnown
 from rovercheck.checker.drawn.lower.program import MOST_STATEMENTS, TooManyStatements
@@ -57,6 +57,10 @@ def _lowered(
                     raise NotLowered(str(error)) from error
                 most = MOST_STATEMENTS
             continue
+        except SizeLearned:
+            table.settle()
+            continue
+        table.settle()
         _refuse_too_fine(table)
         if not table.changed:
             return found

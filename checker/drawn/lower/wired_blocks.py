@@ -174,9 +174,13 @@ class WiredBlocks:
     # --- delays --------------------------------------------------------------------------------------------
 
     def _remembered(self, node: BlockNode, first: Symbolic) -> Symbolic:
-        """The memory of a delay, in the type that was seen to come in."""
+        """The memory of a delay, in the type that was seen to come in; `0` begins any type of numbers."""
         name = self._named(node.block)
         seen = self.context.table.kind_of(name)
+        if isinstance(first, SymbolicScalar) and first.kind == "double" and not seen:
+            begins = first.constant
+            if begins is not None and begins.denominator == 1:
+                first = number(UNTYPED, begins)
         kind, rows, columns = seen or (first.kind, *size_of(first))
         made = each_converted(first, kind, IntegerRules(), self.context.table.kinds)
         if size_of(made) == (1, 1) != (rows, columns):
@@ -188,9 +192,7 @@ class WiredBlocks:
             if node.memory is not None:
                 [value] = self._values(node) or [number("double", 0)]
                 name = self._named(node.block)
-                self.context.table.saw(
-                    name, "double" if value.kind == UNTYPED else value.kind, *size_of(value)
-                )
+                self.context.table.saw_delay(name, value.kind, size_of(value), node.memory.kind == UNTYPED)
                 self.remembered.append((name, node.memory, value))
 
     def delays(self) -> list[Component]:

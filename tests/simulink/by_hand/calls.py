@@ -280,11 +280,11 @@ def _generator_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
 
 
 CALLS = (
-    ByHand("split", ("a split calls in the order of its outputs",), _split, _split_by_hand),
-    ByHand("generator", ("generators of function calls",), _generator, _generator_by_hand),
-    ByHand("calls", ("function-call output events",), _calls, _calls_by_hand),
-    ByHand("function", ("Simulink functions",), _function, _function_by_hand),
-    ByHand("atomic", ("atomic subcharts", "what is commented out"), _atomic, _atomic_by_hand),
+    ByHand("split", _split, _split_by_hand),
+    ByHand("generator", _generator, _generator_by_hand),
+    ByHand("calls", _calls, _calls_by_hand),
+    ByHand("function", _function, _function_by_hand),
+    ByHand("atomic", _atomic, _atomic_by_hand),
 )
 
 __all__ = ["CALLS"]

@@ -86,16 +86,16 @@ def _outs(*names: str) -> dict[str, str]:
 
 MACHINES = (
     ByHand(
-        "moore levels", ("a Moore chart computes its outputs before transitions",),
+        "moore levels",
         one_chart(_levels, _outs("y", "z", "n"), **MOORE), _levels_by_hand,
     ),
     ByHand(
-        "moore regions", ("a Moore chart whose outputs begin anew",),
+        "moore regions",
         one_chart(_anew, _outs("a", "b", "c"), initializeOutput=1, **MOORE),
         _anew_by_hand,
     ),
     ByHand(
-        "mealy", ("a Mealy chart",),
+        "mealy",
         one_chart(_mealy, _outs("y"), stateMachineType="MEALY_MACHINE"), _mealy_by_hand,
     ),
 )  # fmt: skip

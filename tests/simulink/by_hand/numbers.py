@@ -5,20 +5,9 @@ from itertools import pairwise
 
 from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.checker.simulink.writer.packages import WrittenModel
-from tests.simulink.by_hand.models import ByHand, Given, Told, one_chart, tell
+from tests.simulink.by_hand.models import ByHand, Given, Told, held, nearest, one_chart, tell
 
 _KINDS = {"a": "uint8", "b": "int8", "q": "int16"}
-
-
-def _held(value: int, low: int, high: int) -> int:
-    return max(low, min(high, value))
-
-
-def _nearest(value: int, by: int) -> int:
-    """Halves away from 0."""
-    whole, rest = divmod(abs(value), by)
-    whole += 2 * rest >= by
-    return whole if value >= 0 else -whole
 
 
 def _matlab(c: WrittenChart) -> None:
@@ -28,9 +17,9 @@ def _matlab(c: WrittenChart) -> None:
 def _saturated_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
     a = b = 0
     for u in given:
-        a = _held(_held(a + 90, 0, 255) - _held(u, 0, 255), 0, 255)
-        b = _held(b - u, -128, 127)
-        yield a, b, _nearest(b, 4)
+        a = held(held(a + 90, 0, 255) - held(u, 0, 255), 0, 255)
+        b = held(b - u, -128, 127)
+        yield a, b, nearest(b, 4)
 
 
 def _c_language(c: WrittenChart) -> None:
@@ -181,19 +170,19 @@ def _enabled_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
 
 NUMBERS = (
     ByHand(
-        "saturated", ("integers that stop", "rounding to the nearest"), one_chart(_matlab, _KINDS),
+        "saturated", one_chart(_matlab, _KINDS),
         _saturated_by_hand, (-100, -3, 0, 1, 5, 120),
     ),
-    ByHand("c", ("numbers of C", "bits", "the first index"), one_chart(_c_language, _KINDS), _c_by_hand,
+    ByHand("c", one_chart(_c_language, _KINDS), _c_by_hand,
         (-100, -3, 0, 1, 5, 120)),
-    ByHand("persistent", ("persistent variables",), one_chart(_persistent), _persistent_by_hand),
-    ByHand("graphical", ("graphical functions",), one_chart(_graphical), _graphical_by_hand),
+    ByHand("persistent", one_chart(_persistent), _persistent_by_hand),
+    ByHand("graphical", one_chart(_graphical), _graphical_by_hand),
     ByHand(
-        "flow", ("charts without states", "outputs that begin anew"), one_chart(_flow, initializeOutput=1),
+        "flow", one_chart(_flow, initializeOutput=1),
         _flow_by_hand,
     ),
-    ByHand("triggered", ("input events",), _triggered, _triggered_by_hand, (-1, 0, 1, 2, -2)),
-    ByHand("enabled", ("enabled subsystems", "delays", "Goto and From"), _enabled, _enabled_by_hand),
+    ByHand("triggered", _triggered, _triggered_by_hand, (-1, 0, 1, 2, -2)),
+    ByHand("enabled", _enabled, _enabled_by_hand),
 )  # fmt: skip
 
 __all__ = ["NUMBERS"]

@@ -84,8 +84,7 @@ def _by_hand(anew: bool) -> Callable[[Given], Iterator[tuple[float, ...]]]:
 
 
 RESETS = tuple(
-    ByHand(f"states {states}", ("states when enabling",), _enabled(states), _by_hand(states == "reset"))
-    for states in ("held", "reset")
+    ByHand(f"states {states}", _enabled(states), _by_hand(states == "reset")) for states in ("held", "reset")
 )
 
 __all__ = ["RESETS"]

@@ -226,17 +226,17 @@ def _box_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
 
 
 STATES = (
-    ByHand("order", ("execution", "first wake-up", "taking a path"), one_chart(_order), _order_by_hand),
+    ByHand("order", one_chart(_order), _order_by_hand),
     ByHand(
-        "initialized", ("entry at initialization",), one_chart(_order, executeAtInitialization=1),
+        "initialized", one_chart(_order, executeAtInitialization=1),
         _initialized_by_hand,
     ),
-    ByHand("paths", ("search", "backtracking", "dead end"), one_chart(_paths), _paths_by_hand),
-    ByHand("taking", ("self transitions", "inner transitions", "scope"), one_chart(_taking), _taking_by_hand),
-    ByHand("regions", ("order of regions", "entering a region"), one_chart(_regions), _regions_by_hand),
-    ByHand("history", ("history",), one_chart(_history), _history_by_hand),
-    ByHand("border", ("super transitions", "subcharts"), one_chart(_border), _border_by_hand),
-    ByHand("box", ("boxes", "sections that occur twice"), one_chart(_box), _box_by_hand),
+    ByHand("paths", one_chart(_paths), _paths_by_hand),
+    ByHand("taking", one_chart(_taking), _taking_by_hand),
+    ByHand("regions", one_chart(_regions), _regions_by_hand),
+    ByHand("history", one_chart(_history), _history_by_hand),
+    ByHand("border", one_chart(_border), _border_by_hand),
+    ByHand("box", one_chart(_box), _box_by_hand),
 )  # fmt: skip
 
 __all__ = ["STATES"]

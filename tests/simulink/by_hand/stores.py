@@ -112,8 +112,8 @@ def _hidden_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
 
 
 STORES = (
-    ByHand("shared store", ("data stores in charts, in calls and beside them",), _shared, _shared_by_hand),
-    ByHand("hidden store", ("the nearest memory counts", "priorities"), _hidden, _hidden_by_hand),
+    ByHand("shared store", _shared, _shared_by_hand),
+    ByHand("hidden store", _hidden, _hidden_by_hand),
 )
 
 __all__ = ["STORES"]
