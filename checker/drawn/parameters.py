@@ -154,4 +154,12 @@ def _bare(text: str) -> str:
     return (found[1] if found else text).strip()
 
 
-__all__ = ["expanded", "names_in", "rate_of", "seen_in", "values_of"]
+def same_number(one: str, other: str) -> bool:
+    """Whether two texts are one number."""
+    try:
+        return Fraction(one) == Fraction(other)
+    except (ValueError, ZeroDivisionError):
+        return False
+
+
+__all__ = ["expanded", "names_in", "rate_of", "same_number", "seen_in", "values_of"]

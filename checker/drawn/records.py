@@ -324,6 +324,8 @@ class DrawnModel:
     parameters: tuple[DrawnParameter, ...] = ()
     data: tuple[DrawnData, ...] = ()
     """Data of all charts together."""
+    free: Mapping[str, str] = field(default_factory=dict)
+    """Functions and expressions whose values a person lets be free, with the names that they have there."""
     files: tuple[str, ...] = ()
     """What was read, the model first."""
 

@@ -69,6 +69,9 @@ LINKS: Mapping[str, str] = {
 """Links that are not followed, though it is known to what they lead."""
 
 
+CALLS = ("FunctionCallFeedbackLatch", "FunctionCaller", "ModelReference")
+"""Those of them that do more than give values."""
+FREE = "`free` in the file of domains, to have any value"
 SELECTED = "Index vector (dialog)"
 """How a Selector names elements: by numbers that are written in it."""
 
@@ -101,7 +104,8 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
         source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
         generates = source == "Function-Call Generator" or name == "fcncallgen"
         link = LINKS.get(block.parameters.get("link", ""), BLOCKS[block.kind])
-        yield f"it is {GENERATES if generates else link}."
+        way = "" if generates or block.kind in CALLS else f" Or name it under {FREE}."
+        yield f"it is {GENERATES if generates else link}.{way}"
     if block.kind == SPLIT and block.parameters.get("OutputPortLayout", "default") != "default":
         yield "its outputs are in another layout. Set that to default, in which the first is executed first."
     if block.parameters.get("DataStoreElements", "").strip() not in ("", "#"):
@@ -206,4 +210,4 @@ def label_of(transition: DrawnTransition) -> str:
     return " ".join(transition.label.split()) or "?"
 
 
-__all__ = ["DrawingNote", "label_of", "notes_of"]
+__all__ = ["FREE", "DrawingNote", "label_of", "notes_of"]

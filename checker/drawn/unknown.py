@@ -3,15 +3,16 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 
+from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.actions import Assignment, ForLoop, NameDeclaration
-from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name, operands
+from rovercheck.checker.drawn.grammar.syntax import Applied, Expression, Member, Name, operands, parts
 from rovercheck.checker.drawn.grammar.trees import expressions_of
 from rovercheck.checker.drawn.interpret.clock import DURATIONS, LIMITS, UNITS
 from rovercheck.checker.drawn.interpret.functions import BUILTINS, WITHOUT_EFFECT
 from rovercheck.checker.drawn.interpret.matrix_functions import FURTHER, TYPED
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnEnumeration
-from rovercheck.checker.drawn.refused import DrawingNote, label_of
+from rovercheck.checker.drawn.refused import FREE, DrawingNote, label_of
 from rovercheck.spec_model.lang.errors import did_you_mean
 
 COUNTS = ("temporalCount", "elapsed")
@@ -29,9 +30,11 @@ IMPLICIT = ("enter", "en", "exit", "ex", "change", "chg")
 OUTSIDE = ("coder", "ml")
 
 
-def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) -> Iterator[DrawingNote]:
-    """A note for each text with a name that means nothing in it, once for each name."""
-    finder = _Finder(chart, {one.name: one for one in enumerations})
+def unknown_names(
+    chart: ParsedChart, enumerations: Iterable[DrawnEnumeration], free: Mapping[str, str] | None = None
+) -> Iterator[DrawingNote]:
+    """A note for each text with a name that means nothing in it, once for each name, but for what is free."""
+    finder = _Finder(chart, {one.name: one for one in enumerations}, free or {})
     for node in chart.root.every():
         if node.parent is not None:
             texts = (node.sections, node.on_events)
@@ -59,6 +62,7 @@ def unknown_names(chart: ParsedChart, enumerations: Iterable[DrawnEnumeration]) 
 class _Finder:
     chart: ParsedChart
     enumerations: Mapping[str, DrawnEnumeration]
+    free: Mapping[str, str]
     members: set[str] = field(init=False)
     events: set[str] = field(init=False)
 
@@ -74,10 +78,14 @@ class _Finder:
         known |= {*WAKES, *BUILTINS, *FURTHER, *TYPED, *WITHOUT_EFFECT, *self.enumerations}
         for around in node.lineage():
             known |= around.data.keys() | around.functions.keys()
-        found = dict.fromkeys(name for text in expressions_of(*texts) for name in self._unknown(text, known))
+        written = list(expressions_of(*texts))
+        found = dict.fromkeys(name for text in written for name in self._unknown(text, known))
+        called = {one.function for text in written for one in parts(text) if isinstance(one, Applied)}
         for name in found:
             near = did_you_mean(name, self._own(known))
             text = f"{name} is no datum, event, function or member that is known here. {near}".strip()
+            if Name(name) in called:
+                text += f" A function of MATLAB may be named under {FREE}."
             if name in TIME:
                 text = f"{name} is the time since the beginning, which has no end. Use after or elapsed."
             if name in IMPLICIT:
@@ -89,6 +97,9 @@ class _Finder:
 
     def _unknown(self, expression: Expression, known: set[str]) -> Iterator[str]:
         match expression:
+            case _ if free_name(expression, self.free):
+                for one in arguments_of(expression):
+                    yield from self._unknown(one, known)
             case Name(name):
                 if name not in known:
                     yield name

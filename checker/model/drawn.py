@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
+from rovercheck.checker.drawn.free import freed
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.domains import DomainsFile, domains_path, read_domains
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -120,6 +121,7 @@ def _read(path: Path, _: tuple[tuple[Path, int], ...]) -> SimulinkModel:
 
 def lowered_simulink(path: Path, model: DrawnModel, said: DomainsFile) -> SimulinkModel:
     """A model that was read, with its domains.  Raises ``ModelError`` for what has no meaning here."""
+    model = free_in(model, said)
     refused = [str(note) for note in notes_of(model) if note.kind == "refused"]
     if refused:
         raise ModelError("\n".join(f"{path.name}: {one}" for one in refused))
@@ -137,6 +139,14 @@ def lowered_simulink(path: Path, model: DrawnModel, said: DomainsFile) -> Simuli
     notes = [*lowered.system.notes, *_beside(path, lowered, said)]
     system = replace(lowered.system, place=Place(str(path), 1), notes=tuple(notes))
     return SimulinkModel(path, replace(lowered, system=system))
+
+
+def free_in(model: DrawnModel, said: DomainsFile) -> DrawnModel:
+    """The model with what a file of domains lets be free.  Raises ``ModelError`` with that file."""
+    try:
+        return freed(model, said.free)
+    except ModelError as error:
+        raise ModelError(f"{said.path}: {error}") from error
 
 
 def _beside(path: Path, lowered: LoweredModel, said: DomainsFile) -> Iterator[Note]:
@@ -158,4 +168,4 @@ def _beside(path: Path, lowered: LoweredModel, said: DomainsFile) -> Iterator[No
     yield Note(note, "domains as given" if found.said else "exact reals")
 
 
-__all__ = ["SimulinkModel", "lowered_simulink", "read_simulink", "simulink_model"]
+__all__ = ["SimulinkModel", "free_in", "lowered_simulink", "read_simulink", "simulink_model"]

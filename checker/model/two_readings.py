@@ -6,7 +6,7 @@ from fractions import Fraction
 from random import Random
 from time import process_time
 
-from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.faults import BY_ZERO, DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
 from rovercheck.checker.drawn.lower.run import LoweredRun
@@ -92,6 +92,9 @@ def _one_run(
             left[name] -= 1
             if left[name] < 0:
                 given[name], left[name] = random.choice(some), random.choice((0, 0, 1, 3, LONGEST))
+        given |= {
+            name: given[of] for name, of in lowered.free.items()
+        }  # the interpreter has one value of each
         run.append(dict(given))
         faults = list[str]()
         direct, other = dict[str, float](), dict[str, float]()
@@ -103,8 +106,8 @@ def _one_run(
             other = system.step(given)
         except ModelError as error:
             faults.append(f"the system says: {error}")
-        if len(faults) == 2:
-            return None, tick
+        if len(faults) == 2 or (faults and BY_ZERO in faults[0]):
+            return None, tick  # after a division by 0 the interpreter goes on with Inf, as MATLAB does
         wrong = {
             n: (direct[n], other[n])
             for n in direct.keys() & other.keys()

@@ -27,9 +27,9 @@ def in_short(result: Result) -> str:
         case Violated((Exhausted() | Inductive() | StoredInvariant()) as evidence_):
             return _joined(f"never: {evidence_.how} of {system}", result.limited_to)
         case Proved((Trace() | StoredRun()) as trace):
-            return f"reached in {ticks(trace, f' of {system}')}"
+            return _joined(f"reached in {ticks(trace, f' of {system}')}", result.limited_to)
         case Violated((Trace() | StoredRun()) as trace):
-            return ticks(trace, f" of {system}")
+            return _joined(ticks(trace, f" of {system}"), result.limited_to)
     raise AssertionError(verdict)
 
 
@@ -47,9 +47,11 @@ def evidence(result: Result) -> str:
         case Violated((Exhausted() | Inductive() | StoredInvariant()) as shown, engine):
             return _joined(f"{engine}: in none of {shown.how} of {result.system}", result.limited_to)
         case Proved((Trace() | StoredRun()) as trace, engine):
-            return f"{engine}: witness of {ticks(trace, f' on {result.system}')}"
+            return _joined(f"{engine}: witness of {ticks(trace, f' on {result.system}')}", result.limited_to)
         case Violated((Trace() | StoredRun()) as trace, engine):
-            return f"{engine}: counterexample of {ticks(trace, f' on {result.system}')}"
+            return _joined(
+                f"{engine}: counterexample of {ticks(trace, f' on {result.system}')}", result.limited_to
+            )
     raise AssertionError(verdict)
 
 

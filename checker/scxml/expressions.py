@@ -20,10 +20,15 @@ DEEPEST = 50
 LONGEST = 4000
 """Letters of an expression."""
 _TOKEN = re.compile(
-    r"\s*(?:(\d+(?![\w.]))|([A-Za-z_$][\w$]*)|('[^'\\]*'|\"[^\"\\]*\")|(===|!==|==|!=|<=|>=|&&|\|\||[-+*<>!?:()]))"
+    r"\s*(?:(\d+(?![\w.]))|(Math\.(?:abs|floor|max|min)\b|[A-Za-z_$][\w$]*)|('[^'\\]*'|\"[^\"\\]*\")|(===|!==|==|!=|<=|>=|&&|\|\||[-+*/%<>!?:(),]))"
 )
-_BINARY = (("||",), ("&&",), ("===", "!==", "==", "!="), ("<", "<=", ">", ">="), ("+", "-"), ("*",))
-SUBSET = "Written here are whole numbers, true, false, data, In('state'), + - *, comparisons, ! && || and ? :"
+_BINARY = (("||",), ("&&",), ("===", "!==", "==", "!="), ("<", "<=", ">", ">="), ("+", "-"), ("*", "%"))
+_FUNCTIONS: Mapping[str, int] = {"Math.abs": 1, "Math.floor": 1, "Math.max": 2, "Math.min": 2}
+"""Functions of numbers, and of how many; ``Math.floor`` is that of a quotient."""
+SUBSET = (
+    "Written here are whole numbers, true, false, data, In('state'), + - *, % 4, Math.floor(... / 4), "
+    "Math.min, Math.max, Math.abs, comparisons, ! && || and ? :"
+)
 
 
 def kind_of(one: ScxmlExpression) -> ValueKind:
@@ -69,6 +74,8 @@ class _Parser:
 
     def _unexpected(self) -> ModelError:
         what = brief(self.tokens[self.at]) if self.at < len(self.tokens) else "its end"
+        if what == brief("/"):
+            return ModelError(f"`{brief(self.text)}` has {what}, which has no exact meaning here. {SUBSET}.")
         return ModelError(f"`{brief(self.text)}`: {what} is not expected there. {SUBSET}.")
 
     def _take(self, *wanted: str) -> str:
@@ -117,6 +124,8 @@ class _Parser:
                     "Compare values of one kind."
                 )
             return Operation(operator[:2], (left, right), "boolean")
+        if operator == "%":
+            return self._divided("%", left, right)
         kind: ValueKind = "integer" if operator in ("+", "-", "*") else "boolean"
         return Operation(operator, (self._of(left, "integer"), self._of(right, "integer")), kind)
 
@@ -159,7 +168,30 @@ class _Parser:
             return Constant(int(word))
         if word in ("true", "false"):
             return Constant(word == "true")
+        if word in _FUNCTIONS:
+            return self._function(word)
         return self._in() if word == "In" else self._datum(word)
+
+    def _divided(self, operator: str, left: ScxmlExpression, by: ScxmlExpression) -> ScxmlExpression:
+        """A remainder, or a quotient rounded down."""
+        if not isinstance(by, Constant) or isinstance(by.value, bool) or by.value < 1:
+            raise ModelError(f"`{brief(self.text)}` divides by no positive whole number. Write one.")
+        return Operation(operator, (self._of(left, "integer"), by), "integer")
+
+    def _function(self, word: str) -> ScxmlExpression:
+        self._need("(")
+        if word == "Math.floor":
+            left = self._binary(len(_BINARY) - 1)
+            self._need("/")
+            by = self._unary()
+            self._need(")")
+            return self._divided("floor", left, by)
+        found = [self._of(self._choice(), "integer")]
+        while len(found) < _FUNCTIONS[word]:
+            self._need(",")
+            found.append(self._of(self._choice(), "integer"))
+        self._need(")")
+        return Operation(word.removeprefix("Math."), tuple(found), "integer")
 
     def _in(self) -> ScxmlExpression:
         self._need("(")

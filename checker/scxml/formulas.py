@@ -13,7 +13,8 @@ from rovercheck.checker.scxml.records import (
 )
 from rovercheck.checker.scxml.view import MachineView
 from rovercheck.spec_model.lang.domain import boolean, integer
-from rovercheck.spec_model.lang.expr import Expr, Var, const, ite
+from rovercheck.spec_model.lang.expr import Const, Expr, Var, const, ite
+from rovercheck.spec_model.lang.words import absolute, maximum, minimum, modulo, quotient
 
 
 class FormulaWriter:
@@ -69,6 +70,14 @@ def _applied(operator: str, of: list[Expr]) -> Expr:
             return of[0] & of[1]
         case "||":
             return of[0] | of[1]
+        case "%" | "floor":
+            return _divided(operator, *of)
+        case "abs":
+            return absolute(of[0])
+        case "max":
+            return maximum(of[0], of[1])
+        case "min":
+            return minimum(of[0], of[1])
         case "+":
             return of[0] + of[1]
         case "-":
@@ -86,6 +95,14 @@ def _applied(operator: str, of: list[Expr]) -> Expr:
         case ">":
             return of[0] > of[1]
     return of[0] >= of[1]
+
+
+def _divided(operator: str, number: Expr, by: Expr) -> Expr:
+    """A quotient rounded down; a remainder has the sign of what is divided."""
+    assert isinstance(by, Const)
+    if operator == "floor":
+        return quotient(number, by.value)
+    return ite(number < 0, -modulo(-number, by.value), modulo(number, by.value))
 
 
 __all__ = ["FormulaWriter"]

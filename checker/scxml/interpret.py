@@ -31,6 +31,8 @@ _OPERATORS: Mapping[str, Callable[..., Value]] = {
     "!": lambda a: not a, "==": lambda a, b: a == b, "!=": lambda a, b: a != b, "<": lambda a, b: a < b,
     "<=": lambda a, b: a <= b, ">": lambda a, b: a > b, ">=": lambda a, b: a >= b,
     "&&": lambda a, b: a and b, "||": lambda a, b: a or b, "?": lambda a, b, c: b if a else c,
+    "abs": abs, "max": max, "min": min, "floor": lambda a, b: a // b,
+    "%": lambda a, b: a % b if a >= 0 else -(-a % b),
 }  # fmt: skip
 
 
@@ -39,11 +41,11 @@ class MachineRunner:
 
     ``active`` are the states that are active, ``data`` the values, ``fired`` the transitions of the last
     step, ``ran`` the actions in it that are known by name only.  A step without a meaning raises
-    ``DrawnFault``: an event that no queue holds, too many microsteps.
+    ``DrawnFault``: an event that no queue holds, more than ``most`` microsteps.
     """
 
-    def __init__(self, machine: StateMachine) -> None:
-        self.machine = machine
+    def __init__(self, machine: StateMachine, most: int = MOST_MICROSTEPS) -> None:
+        self.machine, self._most = machine, most
         self.data: dict[str, Value] = dict(machine.data)
         self.active: list[MachineState] = []
         self.fired: list[MachineTransition] = []
@@ -73,12 +75,12 @@ class MachineRunner:
             self._pass_time()
         if event:
             self._external.append(event)
-        for _ in range(MOST_MICROSTEPS):
+        for _ in range(self._most):
             if not self._running or not self._turn():
                 break
         else:
             if self._running and self._unsettled():
-                raise DrawnFault(f"a step needs more than {MOST_MICROSTEPS} microsteps")
+                raise DrawnFault(f"a step needs more than {self._most} microsteps")
         if not self._running:
             self._exit_interpreter()
 

@@ -38,8 +38,9 @@ class Result:
 
     ``in_part``: the verdict rests on having searched a system that has only some of the runs of the
     rover, so it is none about the rover.  ``certificate``: what came of checking the proof again, where
-    that was asked for and the verdict rests on a proof.  ``limited_to``: what a proof is limited to, in a
-    few words.  ``same_under``: names in the store that stand for all that the property sees.
+    that was asked for and the verdict rests on a proof.  ``limited_to``: what a proof is limited to, or why a
+    run may be none, in a few words.  ``same_under``: names in the store that stand for all that the property
+    sees.
     """
 
     property: Property
@@ -112,7 +113,9 @@ def _in_part(result: Result, system: System) -> bool:
 
 
 def _limited_to(result: Result, system: System) -> str:
-    """What is said of the system beside a proof; a run is one of the rover whatever was left out."""
+    """What is said of the system beside a proof; a run is one of the rover whatever was left out of it."""
     verdict = result.verdict
     rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace | StoredRun)
-    return system.limited_to if rests_on_all else ""
+    if isinstance(verdict, Unknown):
+        return ""
+    return system.limited_to if rests_on_all else system.doubted_for

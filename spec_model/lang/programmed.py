@@ -27,9 +27,10 @@ class StepProgram:
 
     ``temporaries`` are written before they are read in every step.  ``fired`` says which path was taken where
     its marker, a variable that nothing reads, is assigned; ``tested`` in the same way which transition with
-    a condition was tested, and whether that held.  ``starting`` are raw values that variables have before the
-    first step, of a chart that is entered when it is initialized.  ``elsewhere`` are the active states of
-    other charts, which the step executes as it calls them.
+    a condition was tested, and whether that held, ``rivals`` which two were valid together, so that their
+    order decided, and ``overflows`` which integer did not fit its type.  ``starting`` are raw values that
+    variables have before the first step, of a chart that is entered when it is initialized.  ``elsewhere``
+    are the active states of other charts, which the step executes as it calls them.
     """
 
     statements: Program
@@ -37,17 +38,19 @@ class StepProgram:
     starting: Mapping[str, int] = field(default_factory=dict)
     fired: Mapping[str, FiredTransition] = field(default_factory=dict)
     tested: Mapping[str, tuple[str, bool]] = field(default_factory=dict)
+    rivals: Mapping[str, str] = field(default_factory=dict)
+    overflows: Mapping[str, str] = field(default_factory=dict)
     elsewhere: tuple[Var, ...] = ()
 
     @cached_property
     def unmarked(self) -> Program:
-        """The statements without the markers of what fired, and of what was tested."""
+        """The statements without the markers, which nothing reads."""
         return without(self.statements, self.markers)
 
     @cached_property
     def markers(self) -> frozenset[str]:
         """The variables that are only assigned to tell something."""
-        return frozenset((*self.fired, *self.tested))
+        return frozenset((*self.fired, *self.tested, *self.rivals, *self.overflows))
 
 
 FAULT = Domain(Num(), (0,))

@@ -29,21 +29,22 @@ TICK_MS = 20
 
 
 class Note(str):
-    """A note on a system of which ``brief`` is said beside every proof about it.
+    """A note on a system of which ``brief`` is said beside every proof about it, ``of_runs`` beside a run.
 
     >>> Note("An update carries the time of the step that sees it.", brief="stamps on the steps").brief
     'stamps on the steps'
     """
 
     brief: str
+    of_runs: str
 
-    def __new__(cls, text: str, brief: str) -> "Note":
+    def __new__(cls, text: str, brief: str, of_runs: str = "") -> "Note":
         note = super().__new__(cls, text)
-        note.brief = brief
+        note.brief, note.of_runs = brief, of_runs
         return note
 
-    def __reduce__(self) -> tuple[type["Note"], tuple[str, str]]:
-        return Note, (str(self), self.brief)
+    def __reduce__(self) -> tuple[type["Note"], tuple[str, str, str]]:
+        return Note, (str(self), self.brief, self.of_runs)
 
 
 @dataclass(frozen=True)
@@ -103,6 +104,11 @@ class System:
     def limited_to(self) -> str:
         """What is to be said beside every proof about the system, in a few words; often nothing."""
         return ", ".join(note.brief for note in self.notes if isinstance(note, Note))
+
+    @property
+    def doubted_for(self) -> str:
+        """What is to be said beside every run of the system: why it may be none of what is modelled."""
+        return ", ".join(note.of_runs for note in self.notes if isinstance(note, Note) and note.of_runs)
 
     @property
     def assumed(self) -> Expr:

@@ -1,6 +1,7 @@
 """``rovercheck lint``: what can never happen in charts."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.drawn.test_function_calls import Calling, called_chart
 from tests.schemas import published
+from tests.simulink.known.packages import ChartText
 from tests.simulink.samples import package_of
 
 LAMP = """from rovercheck import Chart, State, flag, to
@@ -151,12 +153,14 @@ def test_the_document_is_as_published(model: str, capsys: pytest.CaptureFixture[
     assert found == {(kind, "never") for kind in ("state", "transition", "condition", "way out")} | {
         ("order", "happens")
     }
-    assert told["systems"] == [{"system": "Lamp", "states": 5, "transitions": 7}]
+    assert told["systems"] == [{"system": "Lamp", "states": 5, "transitions": 7, "asked": True}]
 
 
 def test_charts_of_simulink_are_asked_by_their_paths(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["lint", "--model", str(package_of("2_microwave"))]) == Exit.AS_EXPECTED
-    assert "✓ microwave: 5 states" in capsys.readouterr().out
+    said = " ".join(capsys.readouterr().out.split())
+    assert "`[door]` (SSID 18) and `[left == 0]/bell = true;` (SSID 19) from Oven/Cooking hold" in said
+    assert "microwave: 5 states, 9 transitions, all of them can happen" in said
 
 
 def test_of_the_rover_systems_are_named_and_runs_are_reproduced_on_the_board(
@@ -192,3 +196,46 @@ def test_what_is_in_a_chart_that_another_calls_is_told_of_that(
     assert "✗ one, D: state Three is never active." in said
     assert "✗ one, D: the condition of the transition `[i >= 0]` (SSID" in said
     assert "✗ one, C" not in said
+
+
+GATE = ChartText(
+    "gate",
+    """
+    in u int8
+    in stop boolean
+    out y int8
+    -> Idle
+    state Idle
+    state Up: en: y = int8(1);
+    state Down: en: y = int8(2);
+    Idle -1-> Up: [u > 3]
+    Idle -2-> Down: [stop]
+    Idle -3-> Idle: after(5, sec)
+    Up -1-> Idle: [u < 2]
+    Up -2-> Down: [u >= 2 && stop]
+    Down -1-> Idle: [u == 0]
+    Down -2-> Up
+    """,
+    "MATLAB",
+)
+
+
+def test_overlapping_conditions_of_imported_charts_are_told_with_a_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Those that exclude each other, and a transition without a condition, are no overlap."""
+    path = str(GATE.save(tmp_path, "R2024a"))
+    assert run(["lint", "--model", path]) == Exit.AS_EXPECTED
+    said = " ".join(capsys.readouterr().out.split())
+    assert run(["lint", "--model", path, "--json"]) == Exit.AS_EXPECTED
+    told = json.loads(capsys.readouterr().out)
+    Draft202012Validator(published("lint-1")).validate(told)
+    orders = {row["what"]: row for row in told["findings"] if row["kind"] == "order"}
+    labels = ("[u > 3]", "[stop]", "after(5, sec)")
+    up, down, later = (re.findall(rf"{re.escape(f'`{one}`')} \(SSID \d+\)", said)[0] for one in labels)
+    pairs = [(up, down), (up, later), (down, later)]
+    assert orders.keys() == {f"{one} and {other} from C/Idle" for one, other in pairs}
+    one = orders[f"{up} and {down} from C/Idle"]
+    assert (one["found"], one["chart"]) == ("happens", "C")
+    assert re.fullmatch(r"tick 2: u = [4-9]\d*, stop = true", one["run"][-1])
+    assert one["run"][-1] in said

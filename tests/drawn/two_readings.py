@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.faults import BY_ZERO, DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -89,6 +89,8 @@ def compared(
         except DrawnFault as error:
             expected, fault = None, str(error)
         found, said = _stepped(run, row)
+        if BY_ZERO in said and _stepped(system, row)[0] is None:
+            return Compared(number, fault=said)  # the interpreter goes on with Inf, as MATLAB does
         assert found == expected, (
             f"{told}, row {number}, {row}: {found} ({said}) in place of {expected} ({fault})"
         )

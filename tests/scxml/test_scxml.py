@@ -105,6 +105,15 @@ def test_a_delay_passes_in_steps_without_an_event() -> None:
         ("<state id='a'><transition event='e' target='b'/></state>", "which is no state"),
         ("<state id='a'/><state id='a'/>", "the id a a second time"),
         ("<state id='a'><transition cond='1 / 2' target='a'/></state>", "no exact meaning here"),
+        ("<state id='a'><transition cond='1 % 0 == 0' target='a'/></state>", "divides by no positive whole"),
+        (
+            "<state id='a'><transition cond='Math.floor(1.5) == 1' target='a'/></state>",
+            "no exact meaning here",
+        ),
+        (
+            "<state id='a'><transition cond='Math.floor(1 + 2) == 1' target='a'/></state>",
+            "is not expected there",
+        ),
         ("<state id='a'><transition cond='1' target='a'/></state>", "is no boolean value"),
         ("<datamodel><data id='x' expr='1.5'/></datamodel><state id='a'/>", "no exact meaning here"),
         ("<state id='a'><onentry><send event='e' delay='soon'/></onentry></state>", "the delay 'soon'"),

@@ -74,6 +74,23 @@ def test_of_two_histories_without_a_past_the_content_of_the_last_is_executed() -
     assert ran(text, "go").data == {"x": 2}
 
 
+@pytest.mark.parametrize(
+    ("expr", "value"),
+    [
+        ("9 + (x - 5) % 3", 7),  # a remainder has the sign of what is divided
+        ("9 + Math.floor((x - 7) / 4)", 7),  # rounded down
+        ("(x + 7) % 4", 3),
+        ("Math.floor(x * 2 / 3) % 2", 0),
+        ("Math.min(Math.max(x - 3, 2), Math.abs(x - 5))", 2),
+    ],
+)
+def test_functions_and_divisions_that_are_exact(expr: str, value: int) -> None:
+    text = counted(
+        f"<state id='a'><transition event='e'><assign location='x' expr='{expr}'/></transition></state>"
+    )
+    assert ran(text, "e").data == {"x": value}
+
+
 def test_lint_does_not_miss_a_way_out_of_a_final_state(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

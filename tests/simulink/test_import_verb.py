@@ -11,7 +11,7 @@ from jsonschema import Draft202012Validator
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.drawn.refused import BLOCKS, DrawingNote, notes_of
+from rovercheck.checker.drawn.refused import BLOCKS, CALLS, DrawingNote, notes_of
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.charts import WrittenJunction
 from rovercheck.checker.simulink.writer.packages import WrittenModel
@@ -54,6 +54,7 @@ def odd(tmp_path: Path) -> Path:
 # --- what has no meaning here ------------------------------------------------------------------------------
 
 CHART = "Upper/Odd//one"
+FREELY = " Or name it under `free` in the file of domains, to have any value."
 EXPECTED = [
     (CHART, "the chart", None, "it has super step semantics. Switch it off in the properties of the chart."),
     (CHART, "the chart", None, "it has an update in continuous time. Make it discrete, or inherited."),
@@ -86,7 +87,7 @@ EXPECTED = [
         "it is of all charts together. Give each chart its own, and connect them.",
     ),
     *(
-        (f"a//{kind} block", f"{kind} block {number}", None, f"it is {way}.")
+        (f"a//{kind} block", f"{kind} block {number}", None, f"it is {way}.{'' if kind in CALLS else FREELY}")
         for number, (kind, way) in enumerate(BLOCKS.items(), 1)
     ),
 ]  # fmt: skip

@@ -284,7 +284,7 @@ def test_other_links_are_refused_by_name(tmp_path: Path) -> None:
     read = model(ports(5, "u", "y") + linked("Detect Change", True, vinit="0"), tmp_path)
     assert [str(note) for note in notes_of(read)] == [
         "R, Reference block 5: it is a link to a block of Simulink's library that is not known here. Draw "
-        "what it does in its place."
+        "what it does in its place. Or name it under `free` in the file of domains, to have any value."
     ]
 
 

@@ -18,7 +18,7 @@ from rovercheck.checker.commands.shared.options import VariantOptions, modelling
     default="aiger",
     show_default=True,
     metavar="FORMAT",
-    help="aiger, aag, btor2, smv or promela, or slx: the charts of a system for Simulink.",
+    help="aiger, aag, btor2, smv or promela, or the charts of a system: slx (Simulink) or scxml.",
 )
 @modelling
 @varying
@@ -29,12 +29,13 @@ def export(
 ) -> Exit:
     """Write properties for other model checkers: a file, or a folder of them.
 
-    With --format slx, write the charts of the system that --system names as a model of Simulink.
+    With --format slx, write the charts of the system that --system names as a model of Simulink; with scxml,
+    as a machine in SCXML.
     """
-    if format == "slx":
-        from rovercheck.checker.commands.export.simulink import export_simulink
+    if format in ("slx", "scxml"):
+        from rovercheck.checker.commands.export.charts import export_charts
 
-        return export_simulink(ids, about, charts.variant(), output)
+        return export_charts(ids, about, format, charts.variant(), output)
     from rovercheck.checker.commands.export.run import export as run
 
     return run(ids, about, format, charts.variant(), output)

@@ -42,7 +42,8 @@ FILE = click.Path(path_type=Path)
 @click.option("--force", is_flag=True, help="With --propose-domains: also where that file is there.")
 @click.option(
     "--strict", is_flag=True,
-    help="Exit code 2 also where something is read only with a note, or needs a domain.",
+    help="Exit code 2 also where something is read only with a note, or needs a domain; what the file of "
+    "domains lets be free is refused.",
 )  # fmt: skip
 @click.option(
     "--write", "folder", type=FILE, metavar="FOLDER",

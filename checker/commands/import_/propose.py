@@ -1,5 +1,6 @@
 """``rovercheck import --propose-domains``: a file of domains beside a model, for a person to correct."""
 
+import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -8,6 +9,7 @@ from rovercheck.checker.commands.shared.output import counted, out, write
 from rovercheck.checker.drawn.lower.domains import DomainsFile, domains_path, lines_of, read_domains
 from rovercheck.checker.drawn.lower.propose import ProposedDomain, proposed_domains, proposed_lines
 from rovercheck.checker.drawn.lower.symbols import NotLowered
+from rovercheck.checker.model.drawn import free_in
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -16,7 +18,7 @@ def propose_domains(path: Path, beside: Sequence[Path], force: bool) -> Exit:
     """Write a domain for all that needs one.  Raises ``ModelError`` for a model that has another fault."""
     target = domains_path(path)
     said = read_domains(target) if target.exists() else DomainsFile(target)
-    model = read_model(path, [*said.beside, *beside])
+    model = free_in(read_model(path, [*said.beside, *beside]), said)
     try:
         found = proposed_domains(model, path.name, said.domains, said.step)
     except NotLowered as error:
@@ -41,6 +43,10 @@ def _file(
     yield "# low and high are the ends, in steps of resolution (1 if it is left out); or values = [...]."
     if beside:
         yield f"beside = [{', '.join(repr(str(one)).replace(chr(39), chr(34)) for one in beside)}]"
+    if said.free:
+        yield f"free = {json.dumps(said.free, ensure_ascii=False)}"
+    if said.step:
+        yield f"step = {json.dumps(said.step)}"
     yield ""
     yield "[domains]"
     yield from lines_of(said.domains)

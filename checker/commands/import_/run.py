@@ -18,6 +18,7 @@ from rovercheck.checker.drawn.records import DrawnChart, DrawnModel
 from rovercheck.checker.drawn.refused import DrawingNote, notes_of
 from rovercheck.checker.drawn.unknown import unknown_names
 from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model.drawn import free_in
 from rovercheck.checker.simulink.model import read_model
 
 COLUMNS = ("Chart", "is a", "states", "transitions", "junctions", "functions", "data", "events", "timers")
@@ -33,10 +34,12 @@ def import_model(
 
     Raises ``ModelError`` for a file that cannot be read.
     """
-    model = read_model(path, [*read_domains(domains_path(path)).beside, *beside])
+    said = read_domains(domains_path(path))
+    model = read_model(path, [*said.beside, *beside])
+    model = model if strict else free_in(model, said)
     notes = list(notes_of(model))
     for chart in map(parsed_chart, model.charts):
-        notes += [*chart.notes, *unknown_names(chart, model.enumerations)]
+        notes += [*chart.notes, *unknown_names(chart, model.enumerations, model.free)]
     compared = None if log is None else compared_with(model, log)
     lowering = None if any(note.kind == "refused" for note in notes) else lowering_of(path, model)
     code = Exit.INCONCLUSIVE if any(note.kind == "refused" for note in notes) else Exit.AS_EXPECTED

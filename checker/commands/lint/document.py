@@ -1,29 +1,39 @@
 """``rovercheck lint --json``: what can never happen (``checker/schemas/lint-1.json``)."""
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 from typing_extensions import TypedDict
 
 from rovercheck.checker.io.document import Text
 from rovercheck.checker.results.exit_code import Exit
 
+RowKind: TypeAlias = Literal[
+    "state", "transition", "condition", "order", "way out", "range", "step", "overflow"
+]
+NUMBERS = ("range", "step", "overflow")
+"""Kinds of rows about numbers, which are all told."""
+
 
 class LintRow(TypedDict):
     """A state or a transition of a chart, its condition or its order, and whether some run shows it.
 
     A state is active, or left, in some run; a transition is taken; its condition does not hold where it is
-    tested; it holds together with that of a later transition, so that the order decides.
+    tested; it holds together with that of a later transition, so that the order decides.  Of numbers: a
+    datum gets a value outside its domain, a step has no meaning, as it divides by 0, and an integer is more
+    than its type holds.
     """
 
     system: Text
     chart: Text
-    kind: Literal["state", "transition", "condition", "order", "way out"]
+    kind: RowKind
     what: Text
     """The path of the state; or where the transition starts and ends, with its label, both for an order."""
     found: Literal["happens", "never", "unknown"]
     evidence: Text
     """What that rests on."""
+    run: Sequence[Text]
+    """The inputs of a run that shows it, by tick, of an order and of numbers; else it is empty."""
 
 
 class LintSummary(TypedDict):
@@ -32,6 +42,8 @@ class LintSummary(TypedDict):
     system: Text
     states: int
     transitions: int
+    asked: bool
+    """Whether states and transitions were asked about, which is so unless some run has no meaning."""
 
 
 class LintDocument(TypedDict):
@@ -40,7 +52,7 @@ class LintDocument(TypedDict):
     schema: Literal["rovercheck/lint/1"]
     exit: Exit
     findings: Sequence[LintRow]
-    """What never happens, what only the order decides, and what was not decided."""
+    """What never happens, what only the order decides, what was not decided, and all that is of numbers."""
     systems: Sequence[LintSummary]
 
 
@@ -49,4 +61,4 @@ def document(rows: Sequence[LintRow], systems: Sequence[LintSummary], code: Exit
     return {"schema": "rovercheck/lint/1", "exit": code, "findings": list(rows), "systems": list(systems)}
 
 
-__all__ = ["LintDocument", "LintRow", "LintSummary", "document"]
+__all__ = ["NUMBERS", "LintDocument", "LintRow", "LintSummary", "RowKind", "document"]

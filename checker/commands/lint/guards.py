@@ -45,7 +45,7 @@ def _question(id_: str, flag: Var, system: str) -> Property:
 
 def _row(system: str, goal: GuardGoal) -> LintRow:
     return LintRow(
-        system=system, chart=goal.part, kind=goal.kind, what=goal.text, found="unknown", evidence=""
+        system=system, chart=goal.part, kind=goal.kind, what=goal.text, found="unknown", evidence="", run=()
     )
 
 
@@ -67,7 +67,7 @@ def without_way_out(system: System) -> Iterator[LintRow]:
             ):
                 yield LintRow(
                     system=system.name, chart=chart.name, kind="way out", what=".".join(path),
-                    found="never", evidence="no transition leaves it, or a state around it",
+                    found="never", evidence="no transition leaves it, or a state around it", run=(),
                 )  # fmt: skip
 
 

@@ -110,6 +110,8 @@ def trace(
     because = _reason(wanted, verdict.word)
     if showing.output is None and showing.format == "table":
         _print_heading(wanted, verdict.word)
+    if result.limited_to:
+        err.print(filled(f"Note: {result.limited_to}.", table_width()), markup=False)
     if not verdict.because.shortest and wanted.example:
         err.print("Not known to be a shortest run: a shorter one may do the same.", markup=False)
     if showing.runs > 1:

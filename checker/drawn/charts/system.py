@@ -8,6 +8,7 @@ from rovercheck.checker.drawn.charts.chart import ChartBuilder, ChartLabels
 from rovercheck.checker.drawn.charts.substitution import actions_after
 from rovercheck.checker.drawn.charts.texts import ChartTexts, UnnamedTexts
 from rovercheck.checker.drawn.charts.tidy import tidied, tidied_actions
+from rovercheck.checker.drawn.free import free_outputs
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -44,6 +45,8 @@ def charts_of_model(lowered: LoweredModel, file: str, step: str = "") -> DrawnCh
 
     Raises ``NotLowered`` for what has no words in the language, with its place and a way around it.
     """
+    if lowered.model.free or any(free_outputs(lowered.model)):
+        raise NotLowered("it has free inputs in place of what is drawn: draw what is under `free` as Inports")
     written = {name: one for name, one in lowered.system.written.items() if name in lowered.taken}
     given = {name: one for name, one in lowered.inputs.items() if isinstance(one, Var)}
     domains = {name: one.domain for name, one in (written | given).items()}

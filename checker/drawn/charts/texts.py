@@ -121,6 +121,9 @@ class ChartTexts(ChartWriter):
     def _note_tested(self, one: object, valid: bool) -> None:
         """The same of what is tested."""
 
+    def note_overflow(self, what: str, condition: Expr) -> None:
+        """Nor what does not fit its type."""
+
     @staticmethod
     def refuse_times(*formulas: Expr) -> None:
         """Raises ``NotLowered`` for a time of a state where the language has none."""

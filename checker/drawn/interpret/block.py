@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.drawn.calls import FunctionCall
@@ -57,13 +56,6 @@ def told(node: BlockAtWork) -> Iterator[None]:
         raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
 
 
-def same_number(one: str, other: str) -> bool:
-    try:
-        return Fraction(one) == Fraction(other)
-    except (ValueError, ZeroDivisionError):
-        return False
-
-
 def edge(kind: str, before: float, now: float) -> bool:
     """Whether a signal rises or falls through 0 as a trigger of a kind asks for."""
     if kind in ("function call", "function-call"):
@@ -72,4 +64,4 @@ def edge(kind: str, before: float, now: float) -> bool:
     return {"rising": rises, "falling": falls}.get(kind, rises or falls)
 
 
-__all__ = ["BlockAtWork", "edge", "same_number", "told"]
+__all__ = ["BlockAtWork", "edge", "told"]

@@ -3,11 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.free import free_outputs
 from rovercheck.checker.drawn.grammar.syntax import Expression
 from rovercheck.checker.drawn.interpret.blocks import parsed_value
 from rovercheck.checker.drawn.interpret.delays import settle
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame
-from rovercheck.checker.drawn.interpret.memory import ChartMemory, TypeTable, dimensions
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, FreeValues, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
 from rovercheck.checker.drawn.interpret.stores import StoresAtWork
 from rovercheck.checker.drawn.interpret.system import SystemAtWork
@@ -41,6 +42,8 @@ class ModelRunner:
         self.model, self.types = model, TypeTable.of(model)
         self.step_length = step or model.step
         self.named = values_of(model)
+        named = [*model.free.values(), *(name for name, _ in free_outputs(model))]
+        self.free = FreeValues(model.free, dict.fromkeys(named, 0.0))
         for note in notes_of(model):
             if note.kind == "refused":
                 raise DrawnFault(str(note).rstrip("."))
@@ -62,13 +65,15 @@ class ModelRunner:
         self._top.initialize(at_rest)
 
     def inputs(self) -> Iterator[str]:
-        """The flat names of all inputs, in the order of their ports."""
+        """The flat names of all inputs, in the order of their ports, and of what is free."""
         for port in self._inports:
             yield from (name for name, _ in _flat(port.shown, self._at_rest(port)))
+        yield from self.free.values
 
     def step(self, given: Mapping[str, Number]) -> dict[str, Number]:
         """One step: the outputs by their flat names.  An input that is not given is as at rest."""
         values = [self._filled(port.shown, self._at_rest(port), given) for port in self._inports]
+        self.free.values.update((name, given[name]) for name in self.free.values if name in given)
         for machine in self.machines:
             machine.fired = []
         found = self._top.step(values)

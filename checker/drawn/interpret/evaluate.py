@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from rovercheck.checker.drawn.faults import DrawnFault
+from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import (
     Applied,
@@ -110,6 +111,8 @@ class Evaluator(ABC):
 
     def value(self, expression: Expression, frame: CallFrame) -> MatlabValue:
         """The value of an expression.  Raises ``DrawnFault``."""
+        if self.memory.free.texts and (free := self._free(expression, frame)):
+            return self._any_value(free, expression, frame)
         match expression:
             case Number(value, kind):
                 return self._number(value.numerator, value.denominator, kind, frame)
@@ -134,6 +137,19 @@ class Evaluator(ABC):
             case TextLiteral(text):
                 raise DrawnFault(f"the text {text!r} has no value here")
         raise DrawnFault("it has no value")
+
+    def _free(self, expression: Expression, frame: CallFrame) -> str:
+        """The name under which the value of an expression is free; empty if it is not."""
+        name = free_name(expression, self.memory.free.texts)
+        return "" if name and self._is_of_the_chart(Name(name), frame) else name
+
+    def _any_value(self, free: str, expression: Expression, frame: CallFrame) -> MatlabValue:
+        """What is given for this step, as often as a function of matrices has elements."""
+        given = [self.value(one, frame) for one in arguments_of(expression)]
+        kind = "single" if any(one.kind == "single" for one in given) else "double"
+        rows, columns = max(map(shape, given), default=(1, 1), key=lambda size: size[0] * size[1])
+        value = scalar(each_converted(double(self.memory.free.values[free]), kind, frame.rules))
+        return array([value] * (rows * columns), rows, columns)
 
     def truth(self, expression: Expression, frame: CallFrame) -> bool:
         """An expression as a condition."""

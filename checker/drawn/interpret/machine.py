@@ -14,7 +14,7 @@ from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.chart_functions import END, ChartFunctions, Found
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
-from rovercheck.checker.drawn.interpret.memory import ChartMemory, SharedCell, TypeTable
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, FreeValues, SharedCell, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
 from rovercheck.checker.drawn.interpret.output_events import OutputEvents
 from rovercheck.checker.drawn.interpret.scope import chain_to, scope_of
@@ -33,18 +33,19 @@ MOST_NESTED = 50
 
 
 class ChartMachine(ChartFunctions):
-    """One chart with its memory.  ``named`` are values of parameters, as written, by their names.
+    """One chart with its memory.  ``named`` are values of parameters, as written, by their names, ``free``
+    those that what is free has in the step that is executed.
 
     Raises ``DrawnFault`` for what has no value.
     """
 
     def __init__(
         self, chart: ParsedChart, types: TypeTable, step: str, named: Mapping[str, str] | None = None,
-        shared: Mapping[int, SharedCell] | None = None,
+        free: FreeValues | None = None, shared: Mapping[int, SharedCell] | None = None,
     ) -> None:  # fmt: skip
         self.chart = chart
         self.rules = NumberRules(chart.language.name != "MATLAB", chart.drawn.saturates)
-        self.memory = ChartMemory(types, self.rules, shared or {})
+        self.memory = ChartMemory(types, self.rules, free, shared or {})
         self._step, self.clock = step, ChartClock(chart, step)
         self._runner = StatementRunner(self.memory, self)
         self._persistent = {}

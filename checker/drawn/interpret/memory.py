@@ -21,7 +21,7 @@ from rovercheck.checker.drawn.interpret.values import (
 )
 from rovercheck.checker.drawn.parameters import expanded, seen_in
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
-from rovercheck.checker.drawn.records import DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnBus, DrawnData, DrawnEnumeration, DrawnModel
 from rovercheck.checker.drawn.type_names import plain_type
 
 ENUM, BUS = "Enum:", "Bus:"
@@ -100,6 +100,19 @@ def dimensions(text: str) -> tuple[int, int]:
     return sizes[0], sizes[1]
 
 
+@dataclass
+class FreeValues:
+    """What is free: its values in this step, by name, and the names of functions and expressions."""
+
+    texts: Mapping[str, str] = field(default_factory=dict)
+    values: dict[str, float] = field(default_factory=dict)
+
+    def of_block(self, block: DrawnBlock, types: TypeTable) -> list[MatlabValue]:
+        """The outputs of a free block, in their types."""
+        every = ((Scalar("double", self.values[name]), types.kind(k)) for name, k in block.parameters.items())
+        return [each_converted(value, kind, NumberRules()) for value, kind in every]
+
+
 class SharedCell(Protocol):
     """A value that a chart shares with other blocks."""
 
@@ -116,9 +129,11 @@ class ChartMemory:
     """
 
     def __init__(
-        self, types: TypeTable, rules: NumberRules, shared: Mapping[int, SharedCell] | None = None
-    ) -> None:
+        self, types: TypeTable, rules: NumberRules, free: FreeValues | None = None,
+        shared: Mapping[int, SharedCell] | None = None,
+    ) -> None:  # fmt: skip
         self.types, self.rules, self.shared = types, rules, shared or {}
+        self.free = free or FreeValues()
         self._data: dict[int, DrawnData] = {}
         self._kinds: dict[int, str] = {}
         self._initial: dict[int, MatlabValue] = {}

@@ -15,11 +15,12 @@ from rovercheck.checker.drawn.calls import (
     rate_said,
 )
 from rovercheck.checker.drawn.faults import DrawnFault
-from rovercheck.checker.drawn.interpret.block import BlockAtWork, edge, same_number, told
+from rovercheck.checker.drawn.free import FREE_BLOCK
+from rovercheck.checker.drawn.interpret.block import BlockAtWork, edge, told
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS
 from rovercheck.checker.drawn.interpret.delays import without_type
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
-from rovercheck.checker.drawn.interpret.memory import TypeTable
+from rovercheck.checker.drawn.interpret.memory import FreeValues, TypeTable
 from rovercheck.checker.drawn.interpret.stores import StoresAtWork
 from rovercheck.checker.drawn.interpret.values import (
     TYPES,
@@ -32,7 +33,7 @@ from rovercheck.checker.drawn.interpret.values import (
 )
 from rovercheck.checker.drawn.interpret.wake import outputs_of, woken
 from rovercheck.checker.drawn.merges import UNSAID, merged
-from rovercheck.checker.drawn.parameters import rate_of
+from rovercheck.checker.drawn.parameters import rate_of, same_number
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
 from rovercheck.checker.drawn.resets import begins_anew, is_reset, resets_refused
@@ -48,6 +49,7 @@ class SharedParts(Protocol):
     stores: StoresAtWork
     step_length: str
     named: dict[str, str]
+    free: FreeValues
 
     def chart(self, path: str) -> DrawnChart:
         """The chart of a block.  Raises ``DrawnFault``."""
@@ -56,7 +58,7 @@ class SharedParts(Protocol):
         """The value of a parameter.  Raises ``DrawnFault``."""
 
 
-OTHERS = (GENERATOR, "Inport", "Outport", "Merge", MEMORY, READ, WRITE, *CONTROL)
+OTHERS = (GENERATOR, FREE_BLOCK, "Inport", "Outport", "Merge", MEMORY, READ, WRITE, *CONTROL)
 """The kinds of blocks that do more than compute their outputs from their inputs."""
 
 
@@ -93,11 +95,11 @@ class SystemAtWork:
             chart = parsed_chart(self._runner.chart(block.chart))
             if chart.notes:
                 raise DrawnFault(str(chart.notes[0]))
-            runner = self._runner
-            shared = runner.stores.of(chart)
-            node.chart = ChartMachine(chart, runner.types, runner.step_length, runner.named, shared)
+            of = self._runner
+            shared = of.stores.of(chart)
+            node.chart = ChartMachine(chart, of.types, of.step_length, of.named, of.free, shared)
             for function in simulink_functions(block, chart):
-                inside = SystemAtWork(function.system, runner)
+                inside = SystemAtWork(function.system, of)
                 node.functions.append(inside)
                 node.chart.executed[function.node.drawn.ssid] = partial(_executed, function, inside)
         elif block.kind == "SubSystem" and block.system is not None:
@@ -106,7 +108,7 @@ class SystemAtWork:
             node.trigger = ports_[0].parameters.get("TriggerType", "rising") if ports_ else ""
         elif block.kind in DELAYS:
             node.memory = without_type(self._runner.value_of(block.parameters.get("InitialCondition", "0")))
-        elif block.kind not in BLOCKS and block.kind not in OTHERS:
+        elif block.kind not in (*BLOCKS, *OTHERS):
             raise DrawnFault(f"the block {block.path}: {block.kind} is not known here")
         return node
 
@@ -247,6 +249,8 @@ class SystemAtWork:
             return node.system.disabled(node.outputs) if node.control == "enable" else node.outputs
         if block.kind == "Merge":
             return [self._merged(node)]
+        if block.kind == FREE_BLOCK:
+            return self._runner.free.of_block(block, self._runner.types)
         try:
             return BLOCKS[block.kind](block, values, self._runner.types, self._runner.value_of)
         except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input

@@ -17,6 +17,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     Symbolic,
     SymbolicArray,
     SymbolicScalar,
+    SymbolicStructure,
     chosen,
     flat,
     folded,
@@ -26,7 +27,8 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.spec_model.lang.domain import Num
-from rovercheck.spec_model.lang.expr import Apply, Expr, all_of, any_of, const
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, all_of, any_of, const
+from rovercheck.spec_model.lang.lower.ranges import possible
 
 _COMPARISONS: Mapping[str, Callable[[Expr, Expr], Expr]] = {
     "==": lambda a, b: a == b, "!=": lambda a, b: a != b, "<": lambda a, b: a < b,
@@ -91,7 +93,7 @@ def scalar_of(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: Int
     elif sign in ("/", "./"):
         exact = _quotient(one, other, kind, rules)
     elif sign == "%%":
-        exact = remainder(one, other)
+        exact = remainder(one, other, rules.zero_noted)
     elif sign in ("^", ".^"):
         exact = _power(one, right)
     else:
@@ -150,11 +152,29 @@ def _kind_in_c(left: SymbolicScalar, right: SymbolicScalar) -> str:
     return max(typed, key=lambda kind: (int(kind.lstrip("uint")), kind[0] == "u")) if typed else UNTYPED
 
 
+DIVISIONS = ("/", "./", "%%")
+
+
+def zeros_of(sign: str, one: Symbolic, other: Symbolic, rules: IntegerRules) -> list[Expr]:
+    """The conditions under which an operator divides by 0, where that has no meaning.
+
+    A constant 0 is refused where it is computed with, and integers of MATLAB stop at their ends.
+    """
+    if sign not in DIVISIONS or isinstance(other, SymbolicStructure):
+        return []
+    if not rules.c and {one.kind, other.kind} & INTEGERS.keys():
+        return []
+    divisors = (as_number(one) for one in flat(other) if one.constant is None)
+    return [folded(by == 0) for by in divisors if 0 in possible(by)]
+
+
 def _quotient(one: Expr, other: Expr, kind: str, rules: IntegerRules) -> Expr:
     def by(divisor: Fraction) -> Expr:
         if divisor:  # integers are rounded here: no resolution is common to the quotients of all divisors
             exact = folded(one / divisor)
             return _whole(exact, rules) if kind in INTEGERS else exact
+        if rules.zero_noted and not isinstance(other, Const):
+            return const(0)
         if kind not in INTEGERS or rules.c:
             raise NotLowered(f"`{one} / {other}` may divide by 0")
         low, high = INTEGERS[kind]
@@ -195,4 +215,4 @@ def _one(sign: str, value: SymbolicScalar, rules: IntegerRules) -> SymbolicScala
     raise NotLowered(f"{sign} has no meaning before a value of the type {value.kind}")
 
 
-__all__ = ["binary", "scalar_of", "unary"]
+__all__ = ["DIVISIONS", "binary", "scalar_of", "unary", "zeros_of"]

@@ -3,12 +3,14 @@
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
+from rovercheck.checker.drawn.free import free_outputs
 from rovercheck.checker.drawn.lower.context import LoweringContext
 from rovercheck.checker.drawn.lower.data import DataTable
+from rovercheck.checker.drawn.lower.free_inputs import FreeInputs, free_note
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.lowered import LoweredModel, RangeNotKnown
 from rovercheck.checker.drawn.lower.program import domain_of, in_steps
-from rovercheck.checker.drawn.lower.symbols import Symbolic, SymbolicScalar, filled, leaves
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic, filled, leaves
 from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.parsed import ParsedChart
@@ -16,7 +18,7 @@ from rovercheck.checker.drawn.records import DrawnBlock, DrawnModel
 from rovercheck.checker.drawn.wiring import number_of
 from rovercheck.spec_model.lang.action import Assign, each_action, expressions
 from rovercheck.spec_model.lang.chart import Block, Component
-from rovercheck.spec_model.lang.domain import Num, boolean
+from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.evaluate import run
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.system import Note, Program, System, in_order
@@ -33,16 +35,16 @@ class LoweringAttempt:
         self.model, self.table, self.step, self._file = model, table, step, file
         self._systems = systems
         self.context = LoweringContext(model, file, table, charts, step, most)
-        self.inputs: dict[str, Expr] = {}
-        self._missing: list[str] = []
+        self.inputs = self.context.inputs
 
     def lowered(self) -> LoweredModel:
         """The system.  Raises ``NotLowered``, and ``RangeNotKnown`` for inputs without a domain."""
         top = self._systems(self.model.system, self.context, "")
         root = {number_of(one): one for one in self.model.system.blocks if one.kind == "Inport"}
         given = [self._input(root[n], top) for n in sorted(root)]
-        if self._missing:
-            raise RangeNotKnown("no domain is given for {}", self._missing)
+        self._declare_free()
+        if self.context.missing:
+            raise RangeNotKnown("no domain is given for {}", self.context.missing)
         components, ends = top.lowered(given)
         outputs = self._outputs(top, ends)
         written = self._written(outputs)
@@ -50,18 +52,25 @@ class LoweringAttempt:
             last = [Assign(var, value) for var, value in written]
             components = (*components, Block("Outports", last, text="The outputs of the model."))
         components = (*components, *top.delays())
+        free = FreeInputs(self.table.free)
+        components = free.components(components)
+        self.inputs |= {name: var for name, (var, _) in free.made.items()}
+        self._refuse_idle()
         self._initialize()
         shown = {
             name: next((v for v, _ in written if v.name == name), expr) for name, expr in outputs.items()
         }
         notes, remarks = tuple(self.table.notes.values()), tuple(self.table.remarks.values())
+        named = [*self.model.free.values(), *(name for name, _ in free_outputs(self.model))]
+        freely = [free_note(name) for name in named]
         step_ms, said = _milliseconds(self.step)
 
         def system_of(*parts: Component) -> System:
             return in_order(
                 plain_name(self.model.name), *parts,
                 text=f"The model {self.model.name}, read from {self._file}.",
-                notes=[*(Note(one, brief="rounded data") for one in notes), *remarks, *said], tick_ms=step_ms,
+                notes=[*(Note(one, brief="rounded data") for one in notes), *freely, *remarks, *said],
+                tick_ms=step_ms,
             )  # fmt: skip
 
         system = system_of(*components)
@@ -70,8 +79,9 @@ class LoweringAttempt:
         taken = frozenset(self.table.declared_names)
         data, views = self.context.data, self.context.views
         return LoweredModel(
-            self.model, system, self.inputs, shown, data, views, (*notes, *remarks), taken, self._computes
-        )
+            self.model, system, self.inputs, shown, data, views, (*notes, *freely, *remarks), taken,
+            self._computes, {name: of for name, (_, of) in free.made.items()},
+        )  # fmt: skip
 
     @property
     def _computes(self) -> bool:
@@ -85,17 +95,28 @@ class LoweringAttempt:
             seen = top.kind_wanted(port)
             kind, rows, columns = seen if seen else ("double", rows, columns)
         first = self.table.kinds.first_value(kind, rows, columns)
-        made = []
-        for name, one in leaves(first, port.shown):
-            domain = self.table.given.get(name) or self.table.kinds.domain(one.kind)
-            if domain is None:
-                self._missing.append(name)
-                domain = boolean
-            raw = 0 if 0 in domain else domain.low
-            var = Var(name, domain, raw, f"input of {self.model.name}, {one.kind}")
-            self.inputs[name] = var
-            made.append(SymbolicScalar(one.kind, var))
+        made = [
+            self.context.input(name, one.kind, f"input of {self.model.name}, {one.kind}")
+            for name, one in leaves(first, port.shown)
+        ]
         return filled(first, iter(made))
+
+    def _declare_free(self) -> None:
+        """Inputs for what is free, before anything asks for their domains."""
+        for name, written in free_outputs(self.model):
+            self.context.input(name, self.table.kinds.kind(written), f"free input of {self.model.name}")
+        self.table.free, self.table.free_texts = {}, self.model.free
+        for name in self.model.free.values():
+            self.context.input(name, "double", f"free input of {self.model.name}")
+            self.table.free[name] = self.context.inputs[name]
+
+    def _refuse_idle(self) -> None:
+        idle = [name for name in self.model.free.values() if name not in self.table.free_met]
+        if idle:
+            raise NotLowered(
+                f"free: nothing that is executed computes {idle[0]}; write the path of a block, the name of "
+                "a function, or an expression as a chart has it"
+            )
 
     def _outputs(self, top: SystemWriter, ends: Sequence[Symbolic]) -> dict[str, Expr]:
         return {
@@ -132,6 +153,9 @@ class LoweringAttempt:
         every: dict[str, int] = {}
         for writer in self.context.starts:
             statements = writer.written()
+            early = [one.name for one in _variables(statements) if one.name in self.table.free]
+            if early:
+                raise NotLowered(f"{early[0]} is computed before the first step, where nothing is free")
             at = {one.name: self._at_rest(one) for one in _variables(statements)} | every
             before = dict(at)
             run(statements, at)

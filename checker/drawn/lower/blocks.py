@@ -1,11 +1,11 @@
 """What the blocks of a diagram compute from their inputs in a step, as formulas."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial, reduce
 
-from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary
+from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary, zeros_of
 from rovercheck.checker.drawn.lower.builtins import greatest, least
 from rovercheck.checker.drawn.lower.conversions import (
     IntegerRules,
@@ -60,10 +60,19 @@ class BlockTypes:
 
     kinds: KindTable
     value_of: Callable[[str], Symbolic]
+    zeros: list[Expr] = field(default_factory=list)
+    """The conditions under which blocks divide by 0 that were not taken yet."""
+
+    def take_zeros(self) -> list[Expr]:
+        """The conditions under which the block that was computed last divides by 0."""
+        found = self.zeros[:]
+        self.zeros.clear()
+        return found
 
     def rules(self, block: DrawnBlock) -> IntegerRules:
         """Whether the integers of a block stop at their ends; they wrap unless it says so."""
-        return IntegerRules(False, block.parameters.get("SaturateOnIntegerOverflow") == "on")
+        saturates = block.parameters.get("SaturateOnIntegerOverflow") == "on"
+        return IntegerRules(False, saturates, zero_noted=True)
 
     def typed(self, block: DrawnBlock, value: Symbolic) -> Symbolic:
         """A value in the type that a block says, if it says one."""
@@ -200,7 +209,11 @@ def _product(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbo
 
 
 def _quotient(block: DrawnBlock, one: Symbolic, other: Symbolic, types: BlockTypes) -> Symbolic:
-    """A quotient; one of integers is rounded as the block says, and by 0 it is an end of its type."""
+    """A quotient; one of integers is rounded as the block says, and by 0 it is an end of its type.
+
+    Raises ``NotLowered`` for a constant divisor of 0.
+    """
+    types.zeros.extend(zeros_of("./", one, other, types.rules(block)))
     found, rules = binary("./", one, other, types.rules(block)), types.rules(block)
     if found.kind not in INTEGERS:
         return found

@@ -34,6 +34,8 @@ class ExecutedParts:
     temporaries: dict[str, Var] = field(default_factory=dict)
     fired: dict[str, FiredTransition] = field(default_factory=dict)
     tested: dict[str, tuple[str, bool]] = field(default_factory=dict)
+    rivals: dict[str, str] = field(default_factory=dict)
+    overflows: dict[str, str] = field(default_factory=dict)
 
     def statements(self, components: Iterable[Component]) -> list[Statement]:
         """The statements of components in order."""
@@ -56,6 +58,8 @@ class ExecutedParts:
         self.temporaries |= {var.name: var for var in program.temporaries}
         self.fired |= program.fired
         self.tested |= program.tested
+        self.rivals |= program.rivals
+        self.overflows |= program.overflows
         self.charts.append(chart.with_program(StepProgram((), starting=program.starting)))
 
 
@@ -103,6 +107,8 @@ class CalledBlockWriter(ChartBlockWriter):
         made.writer.temporaries |= parts.temporaries
         made.view.fired |= parts.fired
         made.view.tested |= parts.tested
+        made.view.rivals |= parts.rivals
+        made.view.overflows |= parts.overflows
         return parts.charts
 
     def _written(
@@ -131,8 +137,9 @@ class CalledBlockWriter(ChartBlockWriter):
         *others, last = parts.charts  # the last stands for all: only charts may enter states
         places = tuple(place for one in others for place in (one.entered, *one.locations))
         program = StepProgram(
-            tuple(statements), temporaries, last.program.starting, parts.fired, parts.tested, places
-        )
+            tuple(statements), temporaries, last.program.starting, parts.fired, parts.tested, parts.rivals,
+            parts.overflows, places,
+        )  # fmt: skip
         return [*others, last.with_program(program)]
 
     def _functions(

@@ -85,7 +85,7 @@ class ChartBlockWriter(TriggerWriter):
         view, places = made.view, (place for one in others for place in (one.entered, *one.locations))
         return view.made(StepProgram(
             statements, tuple(made.writer.temporaries.values()), self.context.table.starting,
-            dict(view.fired), dict(view.tested), tuple(places),
+            dict(view.fired), dict(view.tested), dict(view.rivals), dict(view.overflows), tuple(places),
         ))  # fmt: skip
 
     def _start(self, node: BlockNode, made: ChartWriter) -> None:

@@ -1,12 +1,13 @@
 """Paths of transitions through junctions: which is taken, and what is done on the way."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 
 from rovercheck.checker.drawn.grammar.syntax import Expression, Member, Name
 from rovercheck.checker.drawn.lower.chart_words import WordWriter
+from rovercheck.checker.drawn.lower.exclusive import exclude
 from rovercheck.checker.drawn.lower.joints import joints_of
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.symbols import NotLowered, folded, single_of
@@ -55,12 +56,14 @@ class PathWriter(WordWriter):
             self._try(transitions, [], _PathSearch(scope, complete, done, function is not None, joints))
 
     def _try(self, transitions: Sequence[TransitionNode], path: TransitionPath, search: _PathSearch) -> None:
-        for one in transitions:
+        for number, one in enumerate(transitions, 1):
             if self.writer.dead:
                 return
+            valid = self._valid(one, search.scope)
+            later = () if search.in_function or isinstance(valid, Const) else transitions[number:]
             self.writer.choose(
-                self._valid(one, search.scope),
-                partial(self._follow, one, path, search),
+                valid,
+                partial(self._follow, one, path, search, (valid, later)),
                 partial(self._note_tested, one, False),
             )
 
@@ -70,9 +73,34 @@ class PathWriter(WordWriter):
             self.writer.assign(marker, TRUE)
             self.writer.known.pop(marker.name, None)
 
-    def _follow(self, one: TransitionNode, path: TransitionPath, search: _PathSearch) -> None:
+    def _note_rivals(
+        self, one: TransitionNode, holds: Expr, later: Sequence[TransitionNode], scope: TextScope
+    ) -> None:
+        """Note where a transition that is tested later is valid as well, and does something else.
+
+        One whose condition may do something, as a call of a function, is not tested for that; one without a
+        condition is what else happens.
+        """
+        for other in later:
+            one_label, label = one.label, other.label
+            alike = one.target is other.target and (
+                (one_label.condition_actions, one_label.transition_actions)
+                == (label.condition_actions, label.transition_actions)
+            )
+            if alike or (label.guard is not None and self._is_felt(label.guard, scope)):
+                continue
+            with suppress(NotLowered):  # which is told where it is tested
+                valid = self._valid(other, scope)
+                if not isinstance(valid, Const) and not exclude(holds, valid):
+                    self.writer.mark(self.view.rivals_marker(one, other), valid)
+
+    def _follow(
+        self, one: TransitionNode, path: TransitionPath, search: _PathSearch,
+        rivals: tuple[Expr, Sequence[TransitionNode]],
+    ) -> None:  # fmt: skip
         self._note_tested(one, True)
         sure = one.label.guard is None or self._sure
+        self._note_rivals(one, *rivals, search.scope)
         with self._told(one):
             self.run(one.label.condition_actions, search.scope)
             if search.in_function:

@@ -14,12 +14,13 @@ from rovercheck.checker.drawn.lower.model_names import ModelNames
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.stores import StoreVariables
-from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic, SymbolicScalar
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parameters import expanded, values_of
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnChart, DrawnContent, DrawnModel
 from rovercheck.checker.drawn.stores import data_stores
+from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import Expr, Var
 
 
@@ -49,6 +50,19 @@ class LoweringContext:
             raise NotLowered(str(fault)) from fault
         self.memories: dict[str, Var] = {}
         """What delays remember, by name: that changes when all else is done."""
+        self.inputs: dict[str, Var] = {}
+        self.missing: list[str] = []
+        """The inputs of which no domain is known."""
+
+    def input(self, name: str, kind: str, doc: str) -> SymbolicScalar:
+        """An input with the domain that is given, or that of its type."""
+        domain = self.table.given.get(name) or self.table.kinds.domain(kind)
+        if domain is None:
+            self.missing.append(name)
+            domain = boolean
+        var = Var(name, domain, 0 if 0 in domain else domain.low, doc)
+        self.inputs[name] = var
+        return SymbolicScalar(kind, var)
 
     def value_of(self, text: str) -> Symbolic:
         """The value of a parameter.  Raises ``NotLowered``."""

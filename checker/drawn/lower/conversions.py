@@ -26,10 +26,14 @@ from rovercheck.spec_model.lang.operators import Op
 
 @dataclass(frozen=True)
 class IntegerRules:
-    """Whether numbers are those of C, and whether integers stop at their ends; else they wrap."""
+    """Whether numbers are those of C, and whether integers stop at their ends; else they wrap.
+
+    ``zero_noted``: where something is divided by 0 the step has no meaning, which is noted.
+    """
 
     c: bool = False
     saturates: bool = True
+    zero_noted: bool = False
 
 
 def as_number(value: SymbolicScalar) -> Expr:

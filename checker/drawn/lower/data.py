@@ -98,6 +98,12 @@ class DataTable:
     """Whether some became known in this attempt, and were without a type until then."""
     declared_names: set[str] = field(default_factory=set)
     """Every variable that a domain could be given to."""
+    free: dict[str, Var] = field(default_factory=dict)
+    """The variables that stand for the values of functions and expressions that are free, by name."""
+    free_texts: Mapping[str, str] = field(default_factory=dict)
+    """These names, by the functions and expressions as they are written."""
+    free_met: set[str] = field(default_factory=set)
+    """Those that something computes."""
     changed: set[str] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
     remarks: dict[str, str] = field(default_factory=dict)
@@ -203,7 +209,7 @@ class DataTable:
 
     def begin(self) -> None:
         """A new attempt."""
-        self.changed, self.met = set(), set()
+        self.changed, self.met, self.free_met = set(), set(), set()
         self.waiting, self.settled = {}, False
         self.notes, self.remarks = {}, {}
 

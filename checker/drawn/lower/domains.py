@@ -2,6 +2,7 @@
 
 ```toml
 beside = ["parameters.m"]        # further files that the model uses
+free = ["Plant/Lag", "sin"]      # blocks, functions and expressions whose values are free inputs
 step = 0.1                       # seconds, where the model does not say it
 
 [domains]
@@ -24,7 +25,7 @@ from rovercheck.spec_model.lang.domain import Domain, chosen, fixed
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
 from rovercheck.spec_model.lang.place import Place
 
-KEYS = ("beside", "domains", "step")
+KEYS = ("beside", "domains", "free", "step")
 PARTS = ("low", "high", "resolution", "values", "unit")
 
 
@@ -36,6 +37,7 @@ class DomainsFile:
     domains: Mapping[str, Domain] = field(default_factory=dict)
     beside: tuple[Path, ...] = ()
     step: str = ""
+    free: tuple[str, ...] = ()
 
 
 def domains_path(model: Path) -> Path:
@@ -69,12 +71,20 @@ def read_domains(path: Path) -> DomainsFile:
     if not isinstance(beside, list) or not all(isinstance(one, str) for one in beside):
         faults.append(f'{path}: `beside` is a list of files, as in beside = ["types.sldd"].')
         beside = []
+    free = told.get("free", [])
+    if not isinstance(free, list) or not all(isinstance(one, str) for one in free):
+        faults.append(
+            f"{path}: `free` is a list of blocks, by their paths, functions and expressions, as in "
+            'free = ["Plant/Lag", "sin"].'
+        )
+        free = []
     step = told.get("step", "")
     if isinstance(step, bool) or not isinstance(step, int | Decimal | str):
         faults.append(f"{path}: `step` is a number of seconds, as in step = 0.02.")
     if faults:
         raise ModelError("\n".join(faults))
-    return DomainsFile(path, domains, tuple(path.parent / one for one in beside), str(step))
+    files = tuple(path.parent / one for one in beside)
+    return DomainsFile(path, domains, files, str(step), tuple(dict.fromkeys(free)))
 
 
 def _domain(told: object) -> Domain:

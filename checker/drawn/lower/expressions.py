@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 
+from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import (
     Applied,
@@ -20,11 +21,10 @@ from rovercheck.checker.drawn.grammar.syntax import (
     UnaryOperation,
     parts,
 )
-from rovercheck.checker.drawn.lower.arithmetic import binary, unary
+from rovercheck.checker.drawn.lower.arithmetic import unary, zeros_of
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, NOTHING
 from rovercheck.checker.drawn.lower.conversions import as_number, condition_of, each_converted
 from rovercheck.checker.drawn.lower.data import DataTable
-from rovercheck.checker.drawn.lower.elements import ElementWriter
 from rovercheck.checker.drawn.lower.matrix_functions import (
     CODER_VALUES,
     CODER_WORDS,
@@ -38,6 +38,7 @@ from rovercheck.checker.drawn.lower.matrix_functions import (
     sorted_values,
 )
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, function_in
+from rovercheck.checker.drawn.lower.operators import OperatorWriter, division_in
 from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.drawn.lower.symbols import (
     MADE,
@@ -50,16 +51,19 @@ from rovercheck.checker.drawn.lower.symbols import (
     filled,
     folded,
     leaves,
+    matrix,
     number,
     single_of,
+    size_of,
     truth,
 )
 from rovercheck.checker.drawn.lower.times import COUNTED
 from rovercheck.checker.drawn.parsed import FunctionNode
+from rovercheck.checker.drawn.refused import FREE
 from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, const
 
 
-class ExpressionWriter(ElementWriter):
+class ExpressionWriter(OperatorWriter):
     """Makes formulas of the texts of one chart; what it calls is written before the formula."""
 
     def __init__(self, table: DataTable, writer: ProgramWriter) -> None:
@@ -88,6 +92,8 @@ class ExpressionWriter(ElementWriter):
 
     def value(self, expression: Expression, scope: TextScope) -> Symbolic:
         """The value of an expression.  Raises ``NotLowered``."""
+        if free := self._free(expression, scope):
+            return self._any_value(free, expression, scope)
         match expression:
             case Number(value, kind):
                 return number(self._kind(value.denominator == 1, kind, scope), value)
@@ -105,9 +111,8 @@ class ExpressionWriter(ElementWriter):
                 return unary(sign, self.value(operand, scope), scope.rules)
             case BinaryOperation("&&" | "||" as sign, left, right):
                 return truth(self._short(sign, left, right, scope))
-            case BinaryOperation(sign, left, right):
-                one, other = self._both(left, right, scope)
-                return binary(sign, one, other, scope.rules)
+            case BinaryOperation(_, left, right):
+                return self.operated(expression, *self._both(left, right, scope), scope)
             case Matrix(rows):
                 return self._matrix([[self.value(one, scope) for one in row] for row in rows], scope)
             case ColonRange():
@@ -117,6 +122,27 @@ class ExpressionWriter(ElementWriter):
             case TextLiteral(text):
                 raise NotLowered(f"the text {text!r} has no value here")
         raise NotLowered("it has no value")
+
+    def _free(self, expression: Expression, scope: TextScope) -> str:
+        """The name under which the value of an expression is free; empty if it is not."""
+        name = free_name(expression, self.table.free_texts)
+        return "" if name in self.table.free and self._is_own(name, scope) else name
+
+    def _is_own(self, name: str, scope: TextScope) -> bool:
+        """Whether a name is that of a datum or a function of the chart."""
+        own = name in scope.script or function_in(scope.node, name) is not None
+        return own or self.is_datum(name, scope)
+
+    def _any_value(self, free: str, expression: Expression, scope: TextScope) -> Symbolic:
+        """Any value wherever the expression stands, a function of matrices one for each element."""
+        if self._does(expression, scope):
+            raise NotLowered(f"free: {free} calls functions of the chart, which may do more than give values")
+        self.table.free_met.add(free)
+        given = [self.value(one, scope) for one in arguments_of(expression)]
+        kind = "single" if any(one.kind == "single" for one in given) else "double"
+        rows, columns = max(map(size_of, given), default=(1, 1), key=lambda size: size[0] * size[1])
+        value = SymbolicScalar(kind, self.table.free[free])
+        return matrix([self.writer.kept("free", value) for _ in range(rows * columns)], rows, columns)
 
     def condition(self, expression: Expression, scope: TextScope) -> Expr:
         """An expression as a condition."""
@@ -151,15 +177,21 @@ class ExpressionWriter(ElementWriter):
         return any(n in scope.script or function_in(scope.node, n) for n in (*names, *plain))
 
     def _is_felt(self, expression: Expression, scope: TextScope) -> bool:
-        """Whether it matters that it is computed: it may write data, begin a time anew, or be a fault."""
-        return self._does(expression, scope) or any(
+        """Whether it matters that it is computed: it may write data, begin a time, be a fault or free."""
+        felt = self._does(expression, scope) or any(
             isinstance(one, Indexed)
+            or self._free(one, scope)
             or (
                 isinstance(one, Applied)
                 and isinstance(one.function, Name)
                 and (one.function.name in COUNTED or self.is_datum(one.function.name, scope))
             )
             for one in parts(expression)
+        )
+        return felt or any(
+            zeros_of(one.operator, self.value(one.left, scope), self.value(one.right, scope), scope.rules)
+            for part in parts(expression)
+            for one in division_in(part)
         )
 
     def _short(self, sign: str, left: Expression, right: Expression, scope: TextScope) -> Expr:
@@ -171,7 +203,9 @@ class ExpressionWriter(ElementWriter):
         if isinstance(one, Const) and bool(one.value) == (sign == "||"):
             return one
         if not self._is_felt(right, scope):
+            around, self.only_if = self.only_if, folded(self.only_if & (one if sign == "&&" else ~one))
             other = self.condition(right, scope)
+            self.only_if = around
             return folded(one & other if sign == "&&" else one | other)
         key = f"{scope.function}:?"
         self.writer.locals[key] = truth(one)
@@ -217,11 +251,8 @@ class ExpressionWriter(ElementWriter):
 
     def several(self, expression: Expression, scope: TextScope) -> list[Symbolic]:
         """All values of a call; of anything else its value."""
-        own = isinstance(expression, Applied) and isinstance(expression.function, Name) and (
-            self.is_datum(expression.function.name, scope)
-            or expression.function.name in scope.script
-            or function_in(scope.node, expression.function.name) is not None
-        )  # fmt: skip
+        called = expression.function if isinstance(expression, Applied) else None
+        own = isinstance(called, Name) and self._is_own(called.name, scope)
         if not own and (found := self.word(expression, scope)) is not None:
             return [found]
         match expression:
@@ -298,7 +329,10 @@ class ExpressionWriter(ElementWriter):
         if name in self.table.kinds.enumerations and len(values) == 1:
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
-        raise NotLowered(f"{name} is no datum, event or function that is known here")
+        raise NotLowered(
+            f"{name} is no datum, event or function that is known here; a function of MATLAB may be named "
+            f"under {FREE}"
+        )
 
     def _structure(self, given: Sequence[Expression], scope: TextScope) -> Symbolic:
         """``struct('name', value, ...)``."""

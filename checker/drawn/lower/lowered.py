@@ -1,7 +1,7 @@
 """A model as a system, or the data that keep it from being one."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.lower.view import ChartView
@@ -29,6 +29,8 @@ class LoweredModel:
     """The names of all data that a domain may be given to, beside inputs."""
     real: bool = False
     """Whether it computes with real numbers, which are exact fractions here."""
+    free: Mapping[str, str] = field(default_factory=dict)
+    """The inputs for values that are free, each with the name of what it is a value of."""
 
 
 class RangeNotKnown(NotLowered):

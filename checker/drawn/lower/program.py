@@ -88,6 +88,10 @@ class ProgramWriter:
         self.temporaries[made.name] = made
         return made
 
+    def mark(self, marker: Var, condition: Expr) -> None:
+        """Assign a marker, which nothing reads, where a condition holds; it does not count as a statement."""
+        self._rows.append(If(condition, (Assign(marker, TRUE),)))
+
     def fault(self, what: str) -> None:
         """Note that a step has no meaning: ``what`` says why, as a sentence about this system."""
         if what not in self.faults:

@@ -16,6 +16,8 @@ WIDE = fixed(-1_000_000, 1_000_000, Fraction(1, 1000))
 """What stands for a domain while the constants are looked for with which a datum is compared."""
 STEPS = (Fraction(1), Fraction(1, 2), Fraction(1, 4), Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000))
 ATTEMPTS = 20
+BETWEEN_1 = ("sin", "cos", "tanh", "erf")
+"""Functions whose values are from -1 to 1, which may be free."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +70,8 @@ def _needed(
 
 
 def _proposed(name: str, constants: set[Fraction], otherwise: bool, is_input: bool) -> ProposedDomain:
+    if is_input and name in BETWEEN_1:
+        return ProposedDomain(name, fixed(-1, 1, Fraction(1, 8)), "its values are from -1 to 1", False)
     if not constants:
         said = "computed with, and compared with no constant" if otherwise else "nothing reads it"
         return ProposedDomain(name, fixed(0, 100, 1), said, False)

@@ -83,10 +83,15 @@ def by_cases(operand: Expr, of: Callable[[Fraction], Expr]) -> Expr:
     return made
 
 
-def remainder(one: Expr, other: Expr) -> Expr:
-    """The remainder of a division that is cut towards 0: it has the sign of ``one``."""
+def remainder(one: Expr, other: Expr, zero_noted: bool = False) -> Expr:
+    """The remainder of a division that is cut towards 0: it has the sign of ``one``.
+
+    Raises ``NotLowered`` for a division by 0, unless the steps with one are noted.
+    """
 
     def by(divisor: Fraction) -> Expr:
+        if not divisor and zero_noted:
+            return const(0)
         if not divisor:
             raise NotLowered(f"`{one}` may be divided by 0")
         return _by_sign(one, lambda positive: _modulo(positive, abs(divisor)))

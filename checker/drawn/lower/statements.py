@@ -27,6 +27,7 @@ from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, 
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, refuse_other_globals
+from rovercheck.checker.drawn.lower.operators import ONE, compound
 from rovercheck.checker.drawn.lower.symbols import (
     MADE,
     UNTYPED,
@@ -114,8 +115,7 @@ class StatementWriter(ExpressionWriter):
             case Assignment(targets, value, sign):
                 self._assign(targets, value, sign, scope)
             case Increment(target, by):
-                step = number(UNTYPED if scope.rules.c else "double", by)
-                self._write(target, binary("+", self.value(target, scope), step, scope.rules), scope)
+                self._assign([target], ONE, "+" if by > 0 else "-", scope)
             case Evaluated(expression):
                 if not self.sent(expression, scope):
                     self.several(expression, scope)
@@ -227,7 +227,8 @@ class StatementWriter(ExpressionWriter):
         if len(targets) == 1 and targets[0] is not None:
             new = self.value(value, scope)
             if sign is not None:
-                new = binary(sign, self.value(targets[0], scope), new, scope.rules)
+                whole, now = compound(sign, targets[0], value), self.value(targets[0], scope)
+                new = self.operated(whole, now, new, scope)
             self._write(targets[0], new, scope)
             return
         given = self.several(value, scope)

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from rovercheck.checker.drawn.calls import GENERATOR, is_called
+from rovercheck.checker.drawn.faults import BY_ZERO
+from rovercheck.checker.drawn.free import FREE_BLOCK
 from rovercheck.checker.drawn.lower.blocks import BLOCKS
 from rovercheck.checker.drawn.lower.called_blocks import CalledBlockWriter
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, each_converted
@@ -20,15 +22,16 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
-from rovercheck.checker.drawn.records import DrawnSystem
+from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
+from rovercheck.checker.drawn.refused import FREE
 from rovercheck.checker.drawn.resets import begins_anew, is_reset, resets_refused
 from rovercheck.checker.drawn.store_order import MEMORY, READ, WRITE
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.domain import boolean
-from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of
-from rovercheck.spec_model.lang.programmed import ProgrammedChart, is_fault
+from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of, const
+from rovercheck.spec_model.lang.programmed import FAULT, ProgrammedChart, is_fault
 
 
 class SystemWriter(CalledBlockWriter):
@@ -74,14 +77,30 @@ class SystemWriter(CalledBlockWriter):
             return self._subsystem(node, block.system)
         elif block.kind == "Merge":
             node.outputs = [self._merged(node)]
+        elif block.kind == FREE_BLOCK:
+            node.outputs = [
+                SymbolicScalar(self.context.table.kinds.kind(kind), self.context.inputs[name])
+                for name, kind in block.parameters.items()
+            ]
         elif block.kind in BLOCKS:
             try:
-                node.outputs = BLOCKS[block.kind](block, self._values(node), self.context.types)
+                types = self.context.types
+                node.outputs = BLOCKS[block.kind](block, self._values(node), types)
+                return self._divided(block, types.take_zeros())
             except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
                 raise NotLowered("its inputs and parameters do not fit each other") from error
         else:
-            raise NotLowered(f"{block.kind} blocks are not known here")
+            raise NotLowered(f"{block.kind} blocks are not known here; name it under {FREE}")
         return []
+
+    def _divided(self, block: DrawnBlock, zeros: Sequence[Expr]) -> list[Component]:
+        """Note the steps in which a block divides by 0."""
+        if not zeros:
+            return []
+        name = self._named(block)
+        fault = Var(f"{name}.fault", FAULT, 0, f"{' '.join(block.path.split())} {BY_ZERO}", hidden=True)
+        noted = If(folded(any_of(*zeros)), (Assign(fault, const(1)),))
+        return [Block(name, [noted], text=f"What {block.path} divides by.")]
 
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         block = node.block

@@ -31,6 +31,8 @@ class ChartView:
         self._chart = self.made(StepProgram((), starting=starting or {}))
         self.fired: dict[str, FiredTransition] = {}
         self.tested: dict[str, tuple[str, bool]] = {}
+        self.rivals: dict[str, str] = {}
+        self.overflows: dict[str, str] = {}
         self.begun = self._chart.entered
 
     def _name_all(self, node: StateNode, path: Path) -> None:
@@ -75,6 +77,20 @@ class ChartView:
         """A variable that is assigned where a transition with a condition is tested, with this outcome."""
         name = f"{self.name_of_chart}.{'valid' if valid else 'not valid'} {one.drawn.ssid}"
         self.tested[name] = str(one), valid
+        return Var(name, boolean, 0, hidden=True)
+
+    def rivals_marker(self, one: TransitionNode, other: TransitionNode) -> Var:
+        """A variable that is assigned where a transition is valid, and so is one that is tested after it."""
+        name = f"{self.name_of_chart}.both {one.drawn.ssid} {other.drawn.ssid}"
+        labels = (f"`{label_of(t.drawn)}` (SSID {t.drawn.ssid})" for t in (one, other))
+        self.rivals[name] = f"{' and '.join(labels)} from {_start(one)}"
+        return Var(name, boolean, 0, hidden=True)
+
+    def overflow_marker(self, what: str) -> Var:
+        """A variable that is assigned where an integer is more than its type holds."""
+        known = {said: name for name, said in self.overflows.items()}
+        name = known.get(what, f"{self.name_of_chart}.overflow {len(known) + 1}")
+        self.overflows[name] = what
         return Var(name, boolean, 0, hidden=True)
 
     @staticmethod
@@ -142,6 +158,16 @@ class ChartView:
             case StateNode() as node:
                 return ".".join(self.paths[node.ssid])
         raise AssertionError(one)
+
+
+def _start(one: TransitionNode) -> str:
+    """Where a transition begins."""
+    match one.source:
+        case JunctionNode() as junction:
+            return f"junction {junction.ssid} in {junction.holder.path}"
+        case StateNode() as state:
+            return state.path
+    return f"the default of {one.holder.path}"
 
 
 def _junction(one: JunctionNode) -> str:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from fractions import Fraction
 
 from rovercheck.checker.drawn.calls import Port, rate_said
 from rovercheck.checker.drawn.faults import DrawnFault
@@ -30,7 +29,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 )
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.merges import UNSAID, merged
-from rovercheck.checker.drawn.parameters import rate_of
+from rovercheck.checker.drawn.parameters import rate_of, same_number
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 from rovercheck.checker.drawn.wiring import SystemWiring, number_of, wired
 from rovercheck.spec_model.lang.chart import Block, Component
@@ -83,7 +82,7 @@ class WiredBlocks:
             chart = self.context.chart(block.chart).drawn
             rate = chart.sample_time.strip() or "-1" if chart.update == "discrete" else rate
         rate = rate_of(rate, self.context.named)
-        if rate not in ("-1", "0", "inf") and not _same(rate, self.context.step):
+        if rate not in ("-1", "0", "inf") and not same_number(rate, self.context.step):
             raise NotLowered(
                 f"the block {block.path} runs every {rate} s, and the model every {self.context.step} s: "
                 "give them one rate"
@@ -211,13 +210,6 @@ class WiredBlocks:
         statements = writer.written()
         temporaries = tuple(writer.temporaries.values())
         return [Block(writer.name, statements, text="What delays remember.", temporaries=temporaries)]
-
-
-def _same(one: str, other: str) -> bool:
-    try:
-        return Fraction(one) == Fraction(other)
-    except (ValueError, ZeroDivisionError):
-        return False
 
 
 __all__ = ["BlockNode", "WiredBlocks"]

@@ -20,10 +20,11 @@ class GuardGoal:
 
     ``condition``: it does not hold where it is tested; ``tested`` is true after a step in which it holds.
     ``order``: it holds, and so does that of a later transition which leads elsewhere.
+    ``overflow``: an integer is more than its type holds.
     """
 
     part: str
-    kind: Literal["condition", "order"]
+    kind: Literal["condition", "order", "overflow"]
     text: str
     flag: Var
     tested: Var | None = None
@@ -32,7 +33,7 @@ class GuardGoal:
 def with_guards(system: System) -> tuple[System, tuple[GuardGoal, ...]]:
     """The system, which behaves as before and raises the flags of these goals.
 
-    Of imported charts only conditions are asked for: the guards of a later transition may do something.
+    Of an imported chart it is not asked whether a condition that may do something holds, too.
     """
     goals: list[GuardGoal] = []
     components = tuple(_component(c, goals) for c in system.components)
@@ -57,6 +58,10 @@ def _component(component: Component, goals: list[GuardGoal]) -> Component:
                 for marker, name, text, valid in found
                 for goal in (made[name, text],)
             }
+            for marker, text in program.rivals.items():
+                raised[marker] = _raised(_plain(goals, marker.rpartition(".")[0], "order", text).flag)
+            for marker, text in program.overflows.items():
+                raised[marker] = _raised(_plain(goals, marker.rpartition(".")[0], "overflow", text).flag)
             return component.with_program(replace(program, statements=raising(program.statements, raised)))
         case Chart():
             return _GuardedChart(component, goals).watched()
@@ -70,8 +75,8 @@ def _condition(goals: list[GuardGoal], part: str, text: str) -> GuardGoal:
     return goals[-1]
 
 
-def _order(goals: list[GuardGoal], part: str, text: str) -> GuardGoal:
-    goals.append(GuardGoal(part, "order", text, _flag(f"{part}.order.{_next(goals, part)}", text)))
+def _plain(goals: list[GuardGoal], part: str, kind: Literal["order", "overflow"], text: str) -> GuardGoal:
+    goals.append(GuardGoal(part, kind, text, _flag(f"{part}.{kind}.{_next(goals, part)}", text)))
     return goals[-1]
 
 
@@ -103,7 +108,7 @@ class _GuardedChart(WatchedChart):
         looked = [(~guard, _raised(goal.flag)), (guard, _raised(goal.tested))]
         for later in self._rivals(segment):
             assert later.drawn.guard is not None
-            both = _order(self._found, name, f"{segment.text} and {later.text}")
+            both = _plain(self._found, name, "order", f"{segment.text} and {later.text}")
             looked.append((guard & later.drawn.guard, _raised(both.flag)))
         return looked
 

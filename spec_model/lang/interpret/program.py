@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.interpret.run import Admits, Values, store
-from rovercheck.spec_model.lang.programmed import ProgrammedChart, is_fault
+from rovercheck.spec_model.lang.programmed import ProgrammedChart
 
 
 class ProgramRun:
@@ -31,10 +30,8 @@ class ProgramRun:
             match one:
                 case Assign(var) if (path := self.chart.program.fired.get(var.name)) is not None:
                     self._fired.append(path)
-                case Assign(var) if var.name in self.chart.program.tested:
+                case Assign(var) if var.name in self.chart.program.markers:
                     pass
-                case Assign(var) if is_fault(var):
-                    raise ModelError(f"{self.chart.name}: {var.doc}.")
                 case Assign(var, value):
                     store(self._at, self.chart.name, var, evaluate(value, self._at), self._admits)
                 case If(condition, then, otherwise):

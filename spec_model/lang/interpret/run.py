@@ -11,6 +11,7 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.fired_transition import FiredTransition, path_label
 from rovercheck.spec_model.lang.interpret.words import InterpretedWords
+from rovercheck.spec_model.lang.programmed import is_fault
 
 Values = MutableMapping[str, int]
 Admits = Callable[[Var, int], bool]
@@ -268,7 +269,9 @@ def within(data: Var, raw: int) -> bool:
 
 
 def store(at: Values, writer: str, data: Var, raw: int, admits: Admits = contains) -> None:
-    """Assign a raw value.  Raises ``ModelError`` outside the variable's domain."""
+    """Assign a raw value.  Raises ``ModelError`` outside the variable's domain, and for a fault."""
+    if is_fault(data):
+        raise ModelError(f"{writer}: {data.doc}.")
     if not admits(data, raw):
         known = isinstance(data.sort, Bool | Enum)
         shown = str(raw) if known else data.domain.show(raw)
