@@ -49,7 +49,7 @@ INTERPRETER = (
     "tests/drawn/test_simulink_functions.py",
     "tests/drawn/test_boxes.py", "tests/drawn/test_atomic_subcharts.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
-    "tests/simulink/test_by_hand.py",
+    "tests/drawn/test_data_stores.py", "tests/drawn/test_machines.py", "tests/simulink/test_by_hand.py",
 )  # fmt: skip
 LOWERING = (
     "tests/drawn/test_lowering.py", "tests/drawn/test_lowering_blocks.py", *INTERPRETER,
@@ -58,7 +58,8 @@ LOWERING = (
 PACKAGES = (
     "tests/simulink/test_reader.py", "tests/simulink/test_diagrams.py",
     "tests/simulink/test_packages_by_hand.py", "tests/simulink/test_parameters.py",
-    "tests/simulink/test_by_hand.py", "tests/drawn/test_simulink_functions.py",
+    "tests/simulink/test_libraries.py", "tests/simulink/test_by_hand.py",
+    "tests/drawn/test_simulink_functions.py",
 )  # fmt: skip
 READINGS: Mapping[str, Reading] = {
     "interpret": Reading(Path("checker/drawn/interpret"), INTERPRETER),

@@ -6,6 +6,7 @@ from typing import Literal
 
 from rovercheck.checker.drawn.activity import tells_of_regions
 from rovercheck.checker.drawn.atomic import Parts, why_not
+from rovercheck.checker.drawn.calls import SPLIT
 from rovercheck.checker.drawn.records import (
     DrawnBlock,
     DrawnChart,
@@ -16,6 +17,7 @@ from rovercheck.checker.drawn.records import (
     DrawnSystem,
     DrawnTransition,
 )
+from rovercheck.checker.drawn.resets import states_refused
 from rovercheck.checker.drawn.type_names import plain_type
 from rovercheck.checker.drawn.wiring import CONTROL
 
@@ -42,14 +44,14 @@ class DrawingNote:
 
 LONGEST = 100
 """Letters of the name of a state in a note."""
-GENERATOR = "a generator of function calls. Let a chart send an event in each step"
+GENERATES = (
+    "a generator of function calls that is no link to the library of Simulink. Draw the block of the library"
+)
 BLOCKS: Mapping[str, str] = {
-    "Reference": "a link to a library, which is in another file. Break the link, and save the model again",
+    "Reference": "a link to a library, which is in no file beside the model. Put it there, or break the link",
     "ModelReference": "another model. Import that model by itself",
     "S-Function": "C code, which is not read. Put a MATLAB function in its place",
     "MATLABFcn": "an interpreted function of MATLAB. Put a MATLAB Function block in its place",
-    "FunctionCallSplit": "a split of a function call. Send an event for each block that it leads to",
-    "FunctionCallGenerator": GENERATOR,
     "FunctionCallFeedbackLatch": "a latch of a function call. Put a Unit Delay in its place",
     "FunctionCaller": "a call of a Simulink function. Call it in a chart",
     "Integrator": "continuous time. Use a discrete-time block",
@@ -58,12 +60,16 @@ BLOCKS: Mapping[str, str] = {
     "Derivative": "continuous time. Use a discrete-time block",
 }
 """Blocks without a meaning here, and the way around them."""
+LINKS: Mapping[str, str] = {
+    "known": "a link to a block of Simulink's library that is not known here. Draw what it does in its place",
+    "changed": "a link to a library that is changed here. Restore it, or break it",
+    "plain": "a link to a block of a library that is no subsystem. Break the link, and save the model again",
+    "itself": "a link to a library in which the same link is. Break it, and save the library again",
+}
+"""Links that are not followed, though it is known to what they lead."""
 
 
-CALLS = (
-    "FunctionCallSplit", "FunctionCallGenerator", "FunctionCallFeedbackLatch", "FunctionCaller",
-    "ModelReference",
-)  # fmt: skip
+CALLS = ("FunctionCallFeedbackLatch", "FunctionCaller", "ModelReference")
 """Those of them that do more than give values."""
 FREE = "`free` in the file of domains, to have any value"
 SELECTED = "Index vector (dialog)"
@@ -75,19 +81,21 @@ def notes_of(model: DrawnModel) -> Iterator[DrawingNote]:
     parts = {one.path: one for one in model.charts}
     for chart in model.charts:
         yield from _chart(chart, parts)
-    yield from _blocks(model.system)
+    yield from _blocks(model.system, False, parts)
     for one in model.data:
         text = "it is of all charts together. Give each chart its own, and connect them."
         yield DrawingNote("refused", model.name, f"the datum {one.name}", text, "", one.ssid, one.line)
 
 
-def _blocks(system: DrawnSystem) -> Iterator[DrawingNote]:
+def _blocks(system: DrawnSystem, controlled: bool, parts: Parts) -> Iterator[DrawingNote]:
+    """What is refused in a system, which is executed in some steps only if it is ``controlled``."""
+    controlled = controlled or any(one.kind in CONTROL for one in system.blocks)
     for block in system.blocks:
         name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
-        for text in _of_block(block, system):
+        for text in (*_of_block(block, system), *states_refused(block, controlled, parts)):
             yield DrawingNote("refused", name, what, text, system.part, None, block.line)
         for inner in block.systems():
-            yield from _blocks(inner)
+            yield from _blocks(inner, controlled, parts)
 
 
 def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
@@ -95,8 +103,13 @@ def _of_block(block: DrawnBlock, system: DrawnSystem) -> Iterator[str]:
     if block.kind in BLOCKS:
         source, name = block.parameters.get("SourceType", ""), block.parameters.get("FunctionName", "")
         generates = source == "Function-Call Generator" or name == "fcncallgen"
+        link = LINKS.get(block.parameters.get("link", ""), BLOCKS[block.kind])
         way = "" if generates or block.kind in CALLS else f" Or name it under {FREE}."
-        yield f"it is {GENERATOR if generates else BLOCKS[block.kind]}.{way}"
+        yield f"it is {GENERATES if generates else link}.{way}"
+    if block.kind == SPLIT and block.parameters.get("OutputPortLayout", "default") != "default":
+        yield "its outputs are in another layout. Set that to default, in which the first is executed first."
+    if block.parameters.get("DataStoreElements", "").strip() not in ("", "#"):
+        yield "it reads or writes some elements of a data store. Read it whole, and use a selector."
     if block.parameters.get("Commented") == "through":
         yield "it is commented through. Delete it, and draw the signal past it."
     if block.kind != "SubSystem" or block.system is None or block.chart:
@@ -122,8 +135,6 @@ def _chart(chart: DrawnChart, parts: Parts) -> Iterator[DrawingNote]:
         yield _note(chart, "the chart", "super step semantics. Switch it off in the properties of the chart")
     if chart.update == "continuous":
         yield _note(chart, "the chart", "an update in continuous time. Make it discrete, or inherited")
-    if chart.machine == "Moore":
-        yield _note(chart, "the chart", "Moore semantics. Make it a classic chart")
     named = [one.name for one in chart.content.data if one.activity_of == 0]
     if chart.activity_output and not named:
         text = f"of its active state, {chart.activity_output}, which is no datum of it. Give it one"
@@ -174,8 +185,8 @@ def _datum(chart: DrawnChart, where: str, one: DrawnData) -> Iterator[DrawingNot
         why = "it is a message, with a queue. Use an event, or a datum and a counter"
     elif "fixdt" in type_ or type_.startswith(("sfix", "ufix")):
         why = f"{one.type} is a fixed-point type. Use a type of integers, and scale in the chart"
-    elif one.scope == "data store":
-        why = "it is a data store, which other blocks write, too. Connect it as an input and an output"
+    elif one.scope == "data store" and one not in chart.content.data:
+        why = "it is a data store of a state. Make it one of the chart"
     elif one.type == "string" or one.type.startswith("stringtype"):
         why = "it is a string. Use an enumeration"
     if why:

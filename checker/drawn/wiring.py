@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from rovercheck.checker.drawn.calls import FunctionCall, Port, function_calls
+from rovercheck.checker.drawn.calls import GENERATOR, SPLIT, Calls, FunctionCall, Port, function_calls
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
+from rovercheck.checker.drawn.store_order import Uses, order_by_stores
 
 CONTROL = {"EnablePort": "enable", "TriggerPort": "trigger", "ActionPort": "ifaction"}
 DELAYS = ("UnitDelay", "Memory")
@@ -22,12 +23,12 @@ class SystemWiring:
 
     order: list[DrawnBlock] = field(default_factory=list)
     feeds: dict[tuple[str, str], Port] = field(default_factory=dict)
-    calls: dict[Port, FunctionCall] = field(default_factory=dict)
+    calls: dict[Port, tuple[FunctionCall, ...]] = field(default_factory=dict)
 
     @property
     def called(self) -> set[str]:
         """The blocks, by their ids, that are executed where a chart calls them."""
-        return {call.target for call in self.calls.values()}
+        return {call.target for calls in self.calls.values() for call in calls}
 
     def inputs_of(self, block: DrawnBlock) -> list[Port | None]:
         """What feeds each input of a block, those too to which nothing is connected."""
@@ -41,9 +42,13 @@ class SystemWiring:
         return [self.feeds.get((block.id, str(number))) for number in range(1, most + 1)]
 
 
-def wired(system: DrawnSystem) -> SystemWiring:
-    """The wiring of a system.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
-    return _Wires(system).wiring()
+def wired(system: DrawnSystem, uses: Uses) -> SystemWiring:
+    """The wiring of a system, of which blocks use data stores.
+
+    Raises ``DrawnFault`` for blocks that feed themselves without a delay, and for those whose order shows in
+    a data store and is not drawn.
+    """
+    return _Wires(system).wiring(uses)
 
 
 def _is_group(block: DrawnBlock) -> bool:
@@ -61,7 +66,7 @@ def number_of(block: DrawnBlock) -> int:
 
 ONE_INPUT = (
     "Gain", "DataTypeConversion", "Abs", "Saturate", "CompareToConstant", "CompareToZero", "Selector",
-    "Outport", *DELAYS,
+    "Outport", "DataStoreWrite", *DELAYS,
 )  # fmt: skip
 MOST_INPUTS = 10_000
 
@@ -100,7 +105,7 @@ class _Wires:
             if _is_group(block) and block.system is not None:
                 self._take(block.system, block)
 
-    def wiring(self) -> SystemWiring:
+    def wiring(self, uses: Uses) -> SystemWiring:
         """The wiring.  Raises ``DrawnFault`` for blocks that feed themselves without a delay."""
         found = SystemWiring()
         real = [block for block in self._blocks.values() if self._is_real(block)]
@@ -110,7 +115,10 @@ class _Wires:
                 if source is not None:
                     found.feeds[target, port] = source
         found.calls = function_calls({block.id: block for block in real}, found.feeds)
-        found.order = _ordered(real, found.feeds, _callers(found.calls))
+        calling = {block.id for block in real if block.kind in (SPLIT, GENERATOR)}  # which gives no signal
+        found.feeds = {end: source for end, source in found.feeds.items() if source[0] not in calling}
+        real = [block for block in real if block.kind != SPLIT]
+        found.order = _ordered(real, found.feeds, _callers(found.calls), uses)
         return found
 
     def _is_real(self, block: DrawnBlock) -> bool:
@@ -146,12 +154,12 @@ class _Wires:
         return (near or every)[0]
 
 
-def _callers(calls: Mapping[Port, FunctionCall]) -> dict[str, str]:
-    """Of each block that is called the chart that calls first: one called by it may call, too.
+def _callers(calls: Calls) -> dict[str, str]:
+    """Of each block that is called what calls first: one called by it may call, too.
 
     Raises ``DrawnFault`` for charts that call each other.
     """
-    by = {call.target: port[0] for port, call in calls.items()}
+    by = {call.target: port[0] for port, some in calls.items() for call in some}
     found = {}
     for target, caller in by.items():
         seen = {target}
@@ -165,8 +173,9 @@ def _callers(calls: Mapping[Port, FunctionCall]) -> dict[str, str]:
 
 
 def _ordered(
-    blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port], callers: Mapping[str, str]
-) -> list[DrawnBlock]:
+    blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port], callers: Mapping[str, str],
+    uses: Uses,
+) -> list[DrawnBlock]:  # fmt: skip
     """Each block after those that feed it directly; a delay gives what it got a step before.
 
     What is called is executed with the chart that calls it: after all that feeds either of them, and before
@@ -175,7 +184,7 @@ def _ordered(
     every = {block.id: block for block in blocks}
     before: dict[str, list[str]] = {block: [] for block in every if block not in callers}
     for (target, port), (source, _) in feeds.items():
-        if target in callers and port == "trigger":
+        if target not in every or (target in callers and port == "trigger"):
             continue
         if every[target].kind not in DELAYS and source in every and every[source].kind not in DELAYS:
             first, other = callers.get(target, target), callers.get(source, source)
@@ -185,6 +194,7 @@ def _ordered(
     for block in every:
         group = together.setdefault(callers.get(block, block), [])
         group.insert(0 if block in callers else len(group), block)
+    order_by_stores(before, {first: [every[one] for one in group] for first, group in together.items()}, uses)
     said = " (what a chart calls is executed with it)" if callers else ""
     return [every[name] for first in _sorted(before, said) for name in together[first]]
 

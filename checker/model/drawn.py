@@ -108,7 +108,7 @@ def read_simulink(path: Path) -> SimulinkModel:
     if not path.exists():
         raise ModelError(f"There is no {path}; name a model of Simulink, a file {SIMULINK}.")
     whole = path.resolve()
-    beside = [one for one in sorted(whole.parent.iterdir()) if one.suffix in (".sldd", ".m")]
+    beside = [one for one in sorted(whole.parent.iterdir()) if one.suffix in (".sldd", ".m", SIMULINK)]
     files = (whole, domains_path(whole), *beside, *read_domains(domains_path(whole)).beside)
     return _read(whole, tuple((one, one.stat().st_mtime_ns if one.exists() else 0) for one in files))
 

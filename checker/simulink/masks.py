@@ -13,16 +13,19 @@ from rovercheck.spec_model.lang.errors import ModelError
 MaskScope = Mapping[str, str | None]
 """The values of names as expressions; ``None``: one that the file does not say."""
 VALUES = (
-    "Value", "Gain", "Threshold", "InitialCondition", "InitialOutput", "LowerLimit", "UpperLimit",
-    "SampleTime", "Indices", "const",
+    "Value", "Gain", "Threshold", "InitialCondition", "InitialValue", "InitialOutput", "LowerLimit",
+    "UpperLimit", "SampleTime", "Indices", "const", "sample_time", "numberOfIterations",
 )  # fmt: skip
 """Parameters of blocks that are expressions."""
 _VARIABLE = re.compile(r"(\w+)\s*=\s*([@&])(\d{1,4})")
 
 
-def scope_in(block: XmlElement, around: MaskScope, place: str) -> MaskScope:
-    """The names in a block: those of its mask, whose values are written with those ``around`` it."""
-    own = dict(_own(block))
+def scope_in(block: XmlElement, around: MaskScope, place: str, given: Mapping[str, str]) -> MaskScope:
+    """The names in a block: those of its mask, whose values are written with those ``around`` it.
+
+    A link to the block may have ``given`` other values.
+    """
+    own = {name: value if value is None else given.get(name, value) for name, value in _own(block)}
     if not own:
         return around
     found: dict[str, str | None] = {}

@@ -6,20 +6,16 @@ from pathlib import Path
 from rovercheck.checker.drawn.activity import NONE, activity_members
 from rovercheck.checker.drawn.atomic import drawn_in_place
 from rovercheck.checker.drawn.parameters import rate_of
-from rovercheck.checker.drawn.records import DrawnChart, DrawnData, DrawnEnumeration, DrawnModel
-from rovercheck.checker.simulink.blocks import DiagramReader, defaults_of
+from rovercheck.checker.drawn.records import DrawnChart, DrawnEnumeration, DrawnModel
+from rovercheck.checker.simulink.blocks import DiagramReader
 from rovercheck.checker.simulink.chart_blocks import in_order_of_ports, without
-from rovercheck.checker.simulink.charts import chart_of, charts_in, data_of
 from rovercheck.checker.simulink.dictionary import Definitions, files_beside, is_file
+from rovercheck.checker.simulink.libraries import Libraries
 from rovercheck.checker.simulink.masks import in_mask
+from rovercheck.checker.simulink.opened import DIAGRAM, OpenedFile
 from rovercheck.checker.simulink.package import SimulinkPackage
 from rovercheck.checker.simulink.xml import XmlElement
-from rovercheck.spec_model.lang.errors import ModelError
 
-DIAGRAM = "simulink/blockdiagram.xml"
-MACHINE = "simulink/stateflow/machine.xml"
-ALL_CHARTS = "simulink/stateflow.xml"
-DEFAULTS = "simulink/bddefaults.xml"
 ENUM = "Enum:"
 
 
@@ -29,34 +25,28 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
     Its data dictionary, and the classes of enumerations that its charts use, are found in its folder.
     Raises ``ModelError``, with the part and the line, for what cannot be read.
     """
-    package = SimulinkPackage(path)
-    if DIAGRAM not in package:
-        raise ModelError(
-            f"{path}: it has no part {DIAGRAM}, and so is no model of Simulink. Name a file .slx; a text "
-            "file .mdl is saved as one with `save_system` or File, Save As."
-        )
-    top = package.xml(DIAGRAM)
-    model = top if top.tag in ("Model", "Library") else top.child("Model", "Library")
-    if model is None:
-        raise ModelError(f"{package.place(DIAGRAM)}: it holds no model. Save the model again in Simulink.")
-    diagrams = DiagramReader(package, _defaults(package, model))
-    system = diagrams.root(model, DIAGRAM)
-    charts, data = _charts(package, top)
-    charts = in_order_of_ports(without(charts, diagrams.commented), system)
-    charts = drawn_in_place(charts)
-    charts = tuple(in_mask(one, diagrams.scopes.get(one.path, {}), package.place(one.part)) for one in charts)
+    file, libraries = OpenedFile.of(path), Libraries(path.parent, beside)
+    diagrams = DiagramReader(file, libraries)
+    system = diagrams.root(file.model, DIAGRAM)
+    charts = without(file.charts, [*diagrams.commented, *diagrams.linked])
+    for own, link in diagrams.linked.items():
+        charts += without(link.library.charts_at(link.path, own), diagrams.commented)
+    data = tuple(one for some in (file, *libraries.used) for one in some.data)
+    charts = drawn_in_place(in_order_of_ports(charts, system))
+    charts = tuple(in_mask(one, diagrams.scopes.get(one.path, {}), file.place(one.part)) for one in charts)
     types = [one.type for one in data]
     types += (one.type for chart in charts for level in chart.content.every_level() for one in level.data)
     types += (block.parameters.get("OutDataTypeStr", "") for block in system.every_block())
-    definitions = _definitions(path, model, types, beside)
+    named_in = [one.model for one in (file, *libraries.used)]
+    definitions = _definitions(path, named_in, types, beside)
     for made in _made_of_activities(charts):
         definitions.enumerations.setdefault(made.name, made)
-    solver = _solver(package, model)
+    solver = _solver(file.package, file.model)
     named = {name: one.value for name, one in definitions.parameters.items()}
     return DrawnModel(
         name=path.stem,
         format="simulink",
-        release=_release(package),
+        release=_release(file.package),
         step=rate_of(solver.get("FixedStep", ""), named),
         solver=solver.get("SolverName", solver.get("Solver", "")),
         system=system,
@@ -65,50 +55,8 @@ def read_model(path: Path, beside: Sequence[Path] = ()) -> DrawnModel:
         buses=tuple(definitions.buses[name] for name in sorted(definitions.buses)),
         parameters=tuple(definitions.parameters[name] for name in sorted(definitions.parameters)),
         data=data,
-        files=(str(path), *definitions.files),
+        files=(str(path), *(str(one.path) for one in libraries.used), *definitions.files),
     )
-
-
-def _defaults(package: SimulinkPackage, model: XmlElement) -> dict[str, dict[str, str]]:
-    """The defaults of blocks, which newer releases write into a part of their own."""
-    apart = package.xml(DEFAULTS).every() if DEFAULTS in package else ()
-    return {kind: said for one in (model, *apart) for kind, said in defaults_of(one).items()}
-
-
-# --- charts ------------------------------------------------------------------------------------------------
-
-
-def _charts(
-    package: SimulinkPackage, top: XmlElement
-) -> tuple[tuple[DrawnChart, ...], tuple[DrawnData, ...]]:
-    """The charts in the order of the file, and the data of all together: parts of their own, or one."""
-    if MACHINE in package:
-        part, root = MACHINE, package.xml(MACHINE)
-    elif ALL_CHARTS in package:
-        part, root = ALL_CHARTS, package.xml(ALL_CHARTS)
-    else:
-        part = DIAGRAM
-        found = next((one for one in top.every() if one.tag == "Stateflow"), None)
-        if found is None:
-            return (), ()
-        root = found
-    paths = _instances(root)
-    charts = []
-    for one in charts_in(root):
-        own, element = part, one
-        if reference := one.attributes.get("Ref"):
-            own = f"simulink/stateflow/{reference}.xml"
-            element = package.xml(own)
-        path = paths.get(element.attributes.get("id", "")) or element.property_of("name")
-        charts.append(chart_of(element, own, path, package.place(own)))
-    place = package.place(part)
-    data = (one for m in root.all("machine") for c in m.all("Children") for one in c.all("data"))
-    return tuple(charts), tuple(data_of(one, place) for one in data)
-
-
-def _instances(root: XmlElement) -> Mapping[str, str]:
-    """Of the id of a chart the path of its block."""
-    return {one.property_of("chart"): one.property_of("name") for one in root.all("instance")}
 
 
 def _made_of_activities(charts: Iterable[DrawnChart]) -> Iterator[DrawnEnumeration]:
@@ -124,12 +72,16 @@ def _made_of_activities(charts: Iterable[DrawnChart]) -> Iterator[DrawnEnumerati
 # --- beside the model --------------------------------------------------------------------------------------
 
 
-def _definitions(path: Path, model: XmlElement, types: Iterable[str], beside: Iterable[Path]) -> Definitions:
+def _definitions(
+    path: Path, models: Iterable[XmlElement], types: Iterable[str], beside: Iterable[Path]
+) -> Definitions:
     found = Definitions()
-    dictionary = Path(model.property_of("DataDictionary")).name
-    if dictionary and is_file(path.parent / dictionary):
-        found.read_dictionary(path.parent / dictionary)
+    for dictionary in dict.fromkeys(Path(one.property_of("DataDictionary")).name for one in models):
+        if dictionary and is_file(path.parent / dictionary):
+            found.read_dictionary(path.parent / dictionary)
     for file in beside:
+        if file.suffix == ".slx":
+            continue  # a library, which is read where there is a link to it
         if file.suffix == ".sldd":
             found.read_dictionary(file)
         else:

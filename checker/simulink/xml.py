@@ -56,6 +56,10 @@ class XmlElement:
                     return one
         return None
 
+    def properties(self) -> dict[str, str]:
+        """The values of all its ``<P>``, by name."""
+        return {one.attributes.get("Name", ""): one.text for one in self.all("P")}
+
     def below(self, *path: str) -> "XmlElement | None":
         """The element that a path of tags leads to."""
         found: XmlElement | None = self

@@ -1,5 +1,6 @@
 """Diagrams around charts at work: order, delays, control, events, and what is refused."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -8,6 +9,8 @@ import pytest
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.diagram import ModelRunner
 from rovercheck.checker.drawn.interpret.values import TRUE
+from rovercheck.checker.drawn.lower.diagram import lowered_model
+from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.checker.simulink.writer.charts import WrittenChart
 from rovercheck.checker.simulink.writer.packages import WrittenModel
@@ -168,9 +171,64 @@ def test_an_output_that_begins_anew_needs_a_value(tmp_path: Path) -> None:
         enabled(tmp_path, {"OutputWhenDisabled": "reset"})
 
 
-def test_a_subsystem_that_begins_anew_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(DrawnFault, match="StatesWhenEnabling = reset is not known here"):
-        enabled(tmp_path, StatesWhenEnabling="reset")
+def test_the_states_of_a_subsystem_begin_anew_whenever_it_is_enabled(tmp_path: Path) -> None:
+    """Its chart is entered again, with the initial values of its data."""
+    runner = enabled(tmp_path, StatesWhenEnabling="reset")
+    rows = [{"on": on} for on in (0, 1, 1, 1, 0, 0, 1, 1, 0)]
+    assert compared(runner.model, rows).rows == len(rows)
+    assert [runner.step(row)["y1"] for row in rows] == [7, 1, 2, 3, 3, 3, 1, 2, 2]
+
+
+@pytest.mark.parametrize(
+    ("around", "inside", "said"),
+    [
+        (
+            "EnablePort",
+            "",
+            "and what it is in is enabled, triggered or called: whether that enables it",
+        ),
+        ("", "EnablePort", "and Inner in it is controlled itself. Set States when enabling to held"),
+        ("", "DataStoreMemory", "and Inner in it is a data store. Set States when enabling to held"),
+        ("", "history", "and Inner in it has a history junction. Set States when enabling to held"),
+        ("", "executeAtInitialization", "and Inner in it is entered before the first step. Set"),
+        ("", "OUTPUT_EVENT", "and Inner in it has events from or to other blocks. Set"),
+    ],
+)
+def test_what_may_or_may_not_begin_anew_with_a_subsystem_is_refused(
+    around: str, inside: str, said: str, tmp_path: Path
+) -> None:
+    model = WrittenModel("one")
+    [on], [] = ports(model.root, {"on": "boolean"}, 0)
+    system = model.root
+    if around:
+        outer, system = model.root.subsystem("Outer", 1, 0, "enable")
+        system.block(around, "Enable")
+        model.root.line(on, outer)
+        model.root.line(on, f"{outer}#enable")
+        on = system.inport("on", 1)
+    sub, below = system.subsystem("Sub", 0, 0, "enable")
+    below.block("EnablePort", "Enable", {}, {}, StatesWhenEnabling="reset")
+    system.line(on, f"{sub}#enable")
+    if inside == "DataStoreMemory":
+        below.block(inside, "Inner")
+    elif inside == "EnablePort":
+        inner, third = below.subsystem("Inner", 0, 0, "enable")
+        third.block(inside, "Enable")
+        below.line(below.block("Constant", "one", {"out": 1}), f"{inner}#enable")
+    elif inside:
+        _, chart = below.chart("Inner")
+        state = chart.state("A")
+        chart.transition(None, state)
+        chart.more = {inside: 1} if inside == "executeAtInitialization" else {}
+        if inside == "history":
+            chart.junction(state, history=True)
+        elif inside == "OUTPUT_EVENT":
+            chart.event("E", inside, "EITHER_EDGE_EVENT")
+    found = read_model(model.save(tmp_path / "one.slx"))
+    with pytest.raises(DrawnFault, match=re.escape(said)):
+        ModelRunner(found)
+    with pytest.raises(NotLowered, match=re.escape(said)):
+        lowered_model(found, "one.slx")
 
 
 def test_a_chart_with_input_events_runs_when_one_occurs_and_once_for_each(tmp_path: Path) -> None:

@@ -266,10 +266,51 @@ def to_a_block(made: Calling, target: str) -> None:
     made.root.line(made.event(1), target)
 
 
-def split(made: Calling) -> None:
-    block = made.root.block("FunctionCallSplit", "Split", {"in": 1, "out": 2})
+def split(made: Calling, **values: object) -> str:
+    """Two subsystems X and Y that one call executes; the answer is the split."""
+    block = made.root.block("FunctionCallSplit", "Split", {"in": 1, "out": 2}, {}, **values)
     to_a_block(made, block)
+    one, other = summing(made.root, "X"), summing(made.root, "Y")
+    made.root.line(block, f"{one}#trigger")
+    made.root.line(f"{block}/2", f"{other}#trigger")
+    return block
+
+
+def reverse(made: Calling) -> None:
+    split(made, OutputPortLayout="reverse")
+
+
+def branch(made: Calling) -> None:
+    made.root.line(split(made), f"{summing(made.root, 'Z')}#trigger")
+
+
+def backward(made: Calling) -> None:
+    split(made)
+    subs = {one.name: one.sid for one in made.root.blocks}
+    made.root.line(subs["Y"], subs["X"])
+
+
+def to_a_gain(made: Calling) -> None:
+    made.root.line(f"{split(made)}/2", made.root.block("Gain", "G", {"in": 1, "out": 1}))
+
+
+def unfed(made: Calling) -> None:
+    block = made.root.block("FunctionCallSplit", "Split", {"in": 1, "out": 2})
     made.root.line(block, f"{summing(made.root)}#trigger")
+
+
+def generated(made: Calling, **values: object) -> None:
+    kind = {"SourceBlock": "simulink/Generator", "SourceType": "Function-Call Generator"}
+    block = made.root.block("Reference", "Gen", {"out": 1}, {}, **kind, **values)
+    made.root.line(block, f"{summing(made.root)}#trigger")
+
+
+def two_numbers(made: Calling) -> None:
+    generated(made, sample_time="0.1", numberOfIterations="[1 2]")
+
+
+def other_rate(made: Calling) -> None:
+    generated(made)
 
 
 def loop(made: Calling) -> None:
@@ -308,12 +349,19 @@ def anew(made: Calling) -> None:
 @pytest.mark.parametrize(
     ("draw", "said"),
     [
-        (split, "Split"), (loop, "feed each other without a delay (what a chart calls"),
-        (two, "a function call leads to X and Y: send an event for each"),
+        (loop, "feed each other without a delay (what a chart calls"),
+        (two, "a function call leads to X and Y: put a Function-Call Split between"),
         (signal, "output 1 of C is data, and X waits for a function call"),
         (edge, "C, the event F (SSID 4) leads to the SubSystem block X, which no function call executes"),
         (outside, "the function call of X comes from outside its subsystem"),
         (anew, "StatesWhenEnabling = reset"),
+        (reverse, "its outputs are in another layout. Set that to default"),
+        (branch, "a function call leads to X and Z: put a Function-Call Split between, or send an event"),
+        (backward, "Y feeds X, which one function call executes before it: put a delay between"),
+        (to_a_gain, "Split leads to the Gain block G, which no function call executes"),
+        (unfed, "no function call comes into Split: connect one, or delete the block"),
+        (two_numbers, "its number of iterations must be a whole constant from 1 to 100"),
+        (other_rate, "the block Gen runs every 1 s, and the model every 0.1 s: give them one rate"),
     ],
 )  # fmt: skip
 def test_a_call_without_a_meaning_is_refused(

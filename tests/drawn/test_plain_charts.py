@@ -70,6 +70,13 @@ WITHOUT_WORDS = {
     "graphical": "a path may go through junction",
     "triggered": "has 2 input events",
     "calls": "has an event to other blocks: write to a datum",
+    "split": "has an event to other blocks: write to a datum",
+    "generator": "it generates function calls",
+    "shared store": "has an event to other blocks: write to a datum",
+    "moore levels": "is a Moore chart: make it a classic one",
+    "moore regions": "is a Moore chart: make it a classic one",
+    "states held": "whether `i` has changed",
+    "states reset": "whether `i` has changed",
     "function": "has the Simulink function f (SSID 3): write it as a MATLAB function",
 }
 """What of the models by hand is refused, and in which words."""

@@ -143,7 +143,7 @@ def test_a_link_in_a_function_is_told_when_the_model_is_read(tmp_path: Path) -> 
         )
     )
     assert [str(note).partition(".")[0] for note in notes_of(read)] == [
-        "C/f/link, Reference block 3: it is a link to a library, which is in another file"
+        "C/f/link, Reference block 3: it is a link to a library, which is in no file beside the model"
     ]
 
 

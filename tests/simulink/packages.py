@@ -9,9 +9,12 @@ from tests.simulink.by_hand.beside import BESIDE
 from tests.simulink.by_hand.calls import CALLS
 from tests.simulink.by_hand.diagrams import DIAGRAMS
 from tests.simulink.by_hand.labels import LABELS
+from tests.simulink.by_hand.machines import MACHINES as MOORE_AND_MEALY
 from tests.simulink.by_hand.models import ByHand
 from tests.simulink.by_hand.numbers import NUMBERS
+from tests.simulink.by_hand.resets import RESETS
 from tests.simulink.by_hand.states import STATES
+from tests.simulink.by_hand.stores import STORES
 from tests.simulink.by_hand.times import TIMES
 from tests.simulink.by_hand.transitions import TRANSITIONS
 from tests.simulink.by_hand.values import VALUES
@@ -25,7 +28,8 @@ from tests.simulink.known.supervisors import SUPERVISORS
 from tests.simulink.samples import SAMPLES, package_of
 
 MODELS: tuple[ByHand, ...] = (
-    *STATES, *TRANSITIONS, *TIMES, *NUMBERS, *VALUES, *LABELS, *CALLS, *DIAGRAMS, *BESIDE
+    *STATES, *TRANSITIONS, *TIMES, *NUMBERS, *VALUES, *LABELS, *CALLS, *DIAGRAMS, *BESIDE, *STORES,
+    *MOORE_AND_MEALY, *RESETS,
 )  # fmt: skip
 """Models of the writer of this project, and of XML by hand."""
 CHARTS: tuple[Known, ...] = (*SEMANTICS, *EVENTS, *MACHINES, *SUPERVISORS, *APPLIANCES, *CONTROLS)

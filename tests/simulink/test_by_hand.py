@@ -19,7 +19,7 @@ ROWS = 200
 @pytest.mark.parametrize("one", MODELS, ids=lambda one: one.name)
 def test_a_model_gives_what_its_simulation_by_hand_gives(tmp_path: Path, one: ByHand, layout: Layout) -> None:
     read = one.read(tmp_path, layout)
-    given = Random(one.name).choices(one.inputs, k=ROWS)
+    given = [one.inputs[0]] * 2 + Random(one.name).choices(one.inputs, k=ROWS - 2)
     runner = ModelRunner(read)
     for number, (u, expected) in enumerate(zip(given, one.simulate(given), strict=True)):
         assert tuple(runner.step({"u": u}).values()) == expected, f"row {number}: {given[: number + 1][-5:]}"

@@ -29,7 +29,7 @@ def everything() -> WrittenModel:
         model.root.block(kind, f"a/{kind}\nblock")
     _, below = model.root.subsystem("Upper", 1, 1)
     _, chart = below.chart("Odd/one", more={
-        "enableNonTerminalStates": 1, "updateMethod": "CONTINUOUS", "stateMachineType": "MOORE_MACHINE"
+        "enableNonTerminalStates": 1, "updateMethod": "CONTINUOUS",
     })  # fmt: skip
     outer = chart.state("Outer")
     inner = chart.state("Inner", outer)
@@ -58,7 +58,6 @@ FREELY = " Or name it under `free` in the file of domains, to have any value."
 EXPECTED = [
     (CHART, "the chart", None, "it has super step semantics. Switch it off in the properties of the chart."),
     (CHART, "the chart", None, "it has an update in continuous time. Make it discrete, or inherited."),
-    (CHART, "the chart", None, "it has Moore semantics. Make it a classic chart."),
     (CHART, "the datum queue", 8, "it is a message, with a queue. Use an event, or a datum and a counter."),
     (
         f"{CHART}/Outer/Inner", "its states", 2,

@@ -1,5 +1,6 @@
 """``rovercheck import --write``: an ordinary model in Python, which is compared with what is drawn first."""
 
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from rovercheck.checker.commands.import_ import written as verb
 from rovercheck.checker.commands.import_.equality import Equality, equality_of
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.drawn.charts.system import DrawnCharts, charts_of_model
+from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.export.source.layout import Commented, Lines, call, laid_out, listed, quoted
 from rovercheck.checker.export.source.names import SourceNames
@@ -24,8 +26,10 @@ from rovercheck.spec_model.lang.chart import Block, Chart, State
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import var
+from tests.drawn.test_diagram_runs import enabled
 from tests.drawn.test_simulink_functions import counting
 from tests.drawn.test_simulink_functions import written as simulink_function
+from tests.simulink.by_hand.calls import CALLS
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "examples" / "simulink"
@@ -99,6 +103,49 @@ def test_properties_to_begin_with_are_written_where_there_are_none(quick: None, 
     assert list(load(folder).properties) == ["Lamp-1", "Lamp-2", "Lamp-3"]
 
 
+RECORD = '["OVEN-3"]\nverdict = "violated"\nbecause = "The door is opened in the last second."\n'
+HAZARD = """[H-BURN]
+text = "A hand is burnt."
+severity = "critical"
+because = "It is hot."
+requirements = ["R-2"]
+"""
+
+
+@pytest.mark.parametrize("own", ["baseline.toml", "microwave.baseline.toml"])
+def test_what_is_on_record_beside_a_model_is_so_beside_the_written_one(
+    quick: None, tmp_path: Path, own: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A finding that was accepted was a new one there."""
+    for one in MICROWAVE.parent.iterdir():
+        shutil.copy(one, tmp_path)
+    (tmp_path / own).write_text(RECORD, encoding="utf-8")
+    (tmp_path / "hazards.toml").write_text(HAZARD, encoding="utf-8")
+    domains = "[domains]\nminutes = { values = [0, 1, 9] }\n"
+    (tmp_path / "microwave.domains.toml").write_text(domains, encoding="utf-8")
+    folder = tmp_path / "oven"
+    assert run(["import", str(tmp_path / "microwave.slx"), "--write", str(folder)]) == 0
+    written = load(folder)
+    assert written.on_record == load(tmp_path / "microwave.slx").on_record
+    assert written.on_record["OVEN-3"].because == "The door is opened in the last second."
+    assert written.hazards.keys() == {"H-BURN"}
+    assert (folder / "microwave.domains.toml").read_text(encoding="utf-8") == domains
+    assert "oven/baseline.toml" in capsys.readouterr().err
+
+
+def test_a_record_of_properties_that_are_not_copied_stays_behind(
+    quick: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copy(MICROWAVE, tmp_path)
+    text = (MICROWAVE.parent / "microwave_properties.py").read_text(encoding="utf-8")
+    (tmp_path / "microwave_properties.py").write_text(f"{text}\nmore = [oven]\n", encoding="utf-8")
+    (tmp_path / "baseline.toml").write_text(RECORD, encoding="utf-8")
+    assert run(["import", str(tmp_path / "microwave.slx"), "--write", str(tmp_path / "oven")]) == 0
+    told = " ".join("".join(capsys.readouterr()).split())
+    assert "baseline.toml is not copied: it speaks of properties that are not." in told
+    assert not (tmp_path / "oven" / "baseline.toml").exists()
+
+
 # --- what is refused ---------------------------------------------------------------------------------------
 
 
@@ -116,6 +163,15 @@ def test_a_chart_with_simulink_functions_has_no_words(tmp_path: Path) -> None:
     path = simulink_function("A\nen, du: r = f(u);", {"y = f(a)": counting}).save(tmp_path / "one.slx")
     with pytest.raises(NotLowered, match=r"C has the Simulink function f \(SSID 5\): write it as a MATLAB"):
         files(path)
+
+
+def test_states_that_begin_anew_and_generated_calls_have_no_words(tmp_path: Path) -> None:
+    anew = enabled(tmp_path, StatesWhenEnabling="reset").model
+    with pytest.raises(NotLowered, match="the states of Sub begin anew when it is enabled: set that to held"):
+        charts_of_model(lowered_model(anew, "one.slx"), "one.slx")
+    [generator] = [one for one in CALLS if one.name == "generator"]
+    with pytest.raises(NotLowered, match="it generates function calls: have what it calls executed in each"):
+        files(generator.draw().save(tmp_path / "two.slx"))
 
 
 def test_a_folder_with_something_in_it_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

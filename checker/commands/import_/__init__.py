@@ -25,8 +25,9 @@ FILE = click.Path(path_type=Path)
 @click.argument("model", type=FILE, metavar="MODEL.slx")
 @click.option(
     "--beside", type=FILE, multiple=True, metavar="FILE",
-    help="A data dictionary (.sldd), a class of an enumeration or a script of values (.m) that the model "
-    "uses.  The dictionary that the model names, and classes in its folder, are found.",
+    help="A data dictionary (.sldd), a library (.slx), a class of an enumeration or a script of values (.m) "
+    "that the model uses.  The dictionary that the model names, and libraries and classes in its folder, are "
+    "found.",
 )  # fmt: skip
 @click.option(
     "--compare", "log", type=FILE, metavar="LOG.csv",

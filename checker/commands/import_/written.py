@@ -26,6 +26,7 @@ from rovercheck.checker.model.drawn import lowered_simulink
 from rovercheck.checker.model.execute import TESTS
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.neighbours import installed
+from rovercheck.checker.model.records import baseline_of
 from rovercheck.checker.model.two_readings import Readings, compared_readings
 from rovercheck.checker.simulink.model import read_model
 from rovercheck.spec_model.lang.errors import ModelError
@@ -36,6 +37,7 @@ from rovercheck.spec_model.lang.wellformed import check_system
 
 SECONDS = 5.0
 """Seconds of the processor for which the written model is run beside the direct interpreter."""
+OF_PROPERTIES = ("baseline.toml", "hazards.toml", "requirements.toml")
 AROUND = "keep the .slx as the model: `--model {}` works with it"
 
 
@@ -100,7 +102,19 @@ def written_model(path: Path, drawn: DrawnCharts) -> WrittenModel:
                 told.append(f"{file.name} is not copied: {error}. Write it about {name}.py by hand.")
     if len(files) == 1 and charts:
         files[f"{name}_properties.py"] = begun(f"the model {model.name}", names)
+    for file, copy in _beside(path):
+        if told and copy in OF_PROPERTIES:
+            told.append(f"{file.name} is not copied: it speaks of properties that are not.")
+        else:
+            files[copy] = file.read_text(encoding="utf-8")
     return WrittenModel(name, module, files, tuple(told))
+
+
+def _beside(path: Path) -> Iterator[tuple[Path, str]]:
+    """The files beside a model that speak of it, and what each is called beside the written one."""
+    every = [(baseline_of(path), "baseline.toml"), (domains_path(path), domains_path(path).name)]
+    every += [(path.with_name(name), name) for name in ("hazards.toml", "requirements.toml")]
+    yield from (one for one in every if one[0].is_file())
 
 
 def _module_name(stem: str) -> str:

@@ -62,12 +62,12 @@ class ChartBuilder:
 
     def _refuse(self) -> None:
         drawn, root = self.drawn.drawn, self.drawn.root
+        if drawn.machine == "Moore":
+            raise NotLowered(f"{drawn.path} is a Moore chart: make it a classic one")
         if drawn.at_initialization:
             raise NotLowered(
                 f"{drawn.path} is entered before the first step: let it be entered in its first step"
             )
-        if any(one.scope == "output" for one in root.events.values()):
-            raise NotLowered(f"{drawn.path} has an event to other blocks: write to a datum")
         refuse_other_scopes(self.drawn)
         functions = (one for node in root.every() for one in node.functions.values())
         for one in functions:

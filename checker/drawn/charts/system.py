@@ -25,7 +25,7 @@ from rovercheck.checker.drawn.lower.symbols import (
 from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
-from rovercheck.checker.drawn.parsed import ParsedChart
+from rovercheck.checker.drawn.parsed import ParsedChart, output_events
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.domain import Domain
@@ -78,18 +78,15 @@ class LanguageSystemWriter(SystemWriter):
     texts_of: type[ChartTexts]
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
-        if chart.drawn.is_function:
-            return super()._writer(chart, view, writer)
-        context = self.context
-        return self.texts_of(
-            chart, view, context.table, writer, context.step, context.named,
-            lambda one, node: context.names.of_datum(chart.drawn, one, node),
-        )  # fmt: skip
+        self.writer_of = ChartWriter if chart.drawn.is_function else self.texts_of
+        return super()._writer(chart, view, writer)
 
     def _chart(self, node: BlockNode) -> list[Component]:
         context, chart = self.context, self.context.chart(node.block.chart)
         if chart.drawn.is_function:
             return [self._plain(one) for one in super()._chart(node)]
+        if output_events(chart.root):
+            raise NotLowered(f"{chart.drawn.path} has an event to other blocks: write to a datum")
         name = context.names.of_chart(chart.drawn)
         view = ChartView(chart, name, context.file, context.table.starting)
         texts = self._writer(chart, view, ProgramWriter(name, context.most))
@@ -110,6 +107,12 @@ class LanguageSystemWriter(SystemWriter):
         if not events:
             return made
         return [Enabled(self._any_event(node, chart), *made, name=name), *self._edges(node)]
+
+    def _first_of_all(self, name: str, on: Var, components: Sequence[Component]) -> Block:
+        raise NotLowered(f"the states of {name} begin anew when it is enabled: set that to held")
+
+    def _generated(self, node: BlockNode) -> list[Component]:
+        raise NotLowered("it generates function calls: have what it calls executed in each step")
 
     @staticmethod
     def _plain(one: Component) -> Component:

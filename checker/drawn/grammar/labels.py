@@ -30,13 +30,17 @@ __all__ = [
 
 
 class SectionKind(Enum):
-    """When the actions of a section of a state run; ``bind`` has names instead."""
+    """When the actions of a section of a state run; ``bind`` has names instead.
+
+    ``STATE`` are those without a keyword of a Moore chart.
+    """
 
     ENTRY = "entry"
     DURING = "during"
     EXIT = "exit"
     BIND = "bind"
     ON = "on"
+    STATE = "state"
 
 
 _MOST_KINDS = 20

@@ -14,6 +14,7 @@ from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Evaluator
 from rovercheck.checker.drawn.interpret.memory import datum_of
 from rovercheck.checker.drawn.interpret.values import MatlabValue, Scalar, double, logical, scalar
 from rovercheck.checker.drawn.parsed import JunctionNode, ParsedChart, StateNode, TransitionNode
+from rovercheck.checker.drawn.stores import CHANGES_OF_STORES
 
 UNITS = {"sec": Fraction(1), "msec": Fraction(1, 1000), "usec": Fraction(1, 10**6)}
 LIMITS: dict[str, Callable[[Fraction, Fraction], bool]] = {
@@ -159,6 +160,8 @@ class ChartClock:
         if datum is None:
             raise DrawnFault("changes are seen of a datum: name one")
         memory = by.memory
+        if datum.ssid in memory.shared:
+            raise DrawnFault(CHANGES_OF_STORES)
         now = memory.start.get(datum.ssid, memory.values[datum.ssid])  # there is no start at initialization
         return now, memory.before.get(datum.ssid)
 

@@ -10,6 +10,7 @@ from rovercheck.checker.drawn.interpret.delays import settle
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame
 from rovercheck.checker.drawn.interpret.memory import ChartMemory, FreeValues, TypeTable, dimensions
 from rovercheck.checker.drawn.interpret.statements import StatementRunner
+from rovercheck.checker.drawn.interpret.stores import StoresAtWork
 from rovercheck.checker.drawn.interpret.system import SystemAtWork
 from rovercheck.checker.drawn.interpret.values import (
     MatlabValue,
@@ -22,9 +23,10 @@ from rovercheck.checker.drawn.interpret.values import (
     shape,
 )
 from rovercheck.checker.drawn.parameters import expanded, values_of
-from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
+from rovercheck.checker.drawn.parsed import FunctionNode, StateNode, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnModel
 from rovercheck.checker.drawn.refused import notes_of
+from rovercheck.checker.drawn.stores import data_stores
 from rovercheck.checker.drawn.wiring import number_of
 
 Number = int | float
@@ -45,6 +47,8 @@ class ModelRunner:
         for note in notes_of(model):
             if note.kind == "refused":
                 raise DrawnFault(str(note).rstrip("."))
+        charts = {one.path: parsed_chart(one) for one in model.charts}
+        self.stores = StoresAtWork(data_stores(model.system, charts), self.types, self.value_of)
         self._top = SystemAtWork(model.system, self)
         root = {number_of(one): one for one in model.system.blocks if one.kind == "Inport"}
         self._inports = [root[number] for number in sorted(root)]
@@ -56,7 +60,8 @@ class ModelRunner:
         self.machines = list(self._top.machines())
         """The charts at work, in their order of execution."""
         at_rest = [self._at_rest(port) for port in self._inports]
-        settle(self._top, at_rest, self)
+        with self.stores.kept():
+            settle(self._top, at_rest, self)
         self._top.initialize(at_rest)
 
     def inputs(self) -> Iterator[str]:

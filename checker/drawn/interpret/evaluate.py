@@ -180,7 +180,7 @@ class Evaluator(ABC):
         if name in frame.results:
             raise DrawnFault(f"{name} is read, and nothing is assigned to it before")
         if (datum := datum_of(frame.node, name)) is not None:
-            return self.memory.values[datum.ssid]
+            return self.memory.read(datum.ssid)
         return self._one(self._several(expression, frame))
 
     def _several(self, expression: Expression, frame: CallFrame) -> list[MatlabValue]:

@@ -14,7 +14,7 @@ from rovercheck.checker.drawn.interpret.activity import activity
 from rovercheck.checker.drawn.interpret.chart_functions import END, ChartFunctions, Found
 from rovercheck.checker.drawn.interpret.clock import ChartClock
 from rovercheck.checker.drawn.interpret.evaluate import CallFrame, Dropped
-from rovercheck.checker.drawn.interpret.memory import ChartMemory, FreeValues, TypeTable
+from rovercheck.checker.drawn.interpret.memory import ChartMemory, FreeValues, SharedCell, TypeTable
 from rovercheck.checker.drawn.interpret.names import names_in, state_of
 from rovercheck.checker.drawn.interpret.output_events import OutputEvents
 from rovercheck.checker.drawn.interpret.scope import chain_to, scope_of
@@ -41,12 +41,12 @@ class ChartMachine(ChartFunctions):
 
     def __init__(
         self, chart: ParsedChart, types: TypeTable, step: str, named: Mapping[str, str] | None = None,
-        free: FreeValues | None = None,
+        free: FreeValues | None = None, shared: Mapping[int, SharedCell] | None = None,
     ) -> None:  # fmt: skip
         self.chart = chart
         self.rules = NumberRules(chart.language.name != "MATLAB", chart.drawn.saturates)
-        self.memory = ChartMemory(types, self.rules, free)
-        self.clock = ChartClock(chart, step)
+        self.memory = ChartMemory(types, self.rules, free, shared or {})
+        self._step, self.clock = step, ChartClock(chart, step)
         self._runner = StatementRunner(self.memory, self)
         self._persistent = {}
         self.active: set[StateNode] = set()
@@ -83,6 +83,16 @@ class ChartMachine(ChartFunctions):
         if self.chart.drawn.at_initialization:
             self._first()
 
+    def begin_anew(self) -> None:
+        """All is as before the first step: no state is active, and data have their initial values."""
+        self.active.clear()
+        self._child.clear()
+        self._last.clear()
+        self._persistent.clear()
+        self.begun = False
+        self.clock = ChartClock(self.chart, self._step)
+        self.memory.reset_all()
+
     def step(self, events: Sequence[str] = ()) -> None:
         """One step with the inputs as they are; with input events, one execution for each of them."""
         self.memory.note_start()
@@ -96,6 +106,7 @@ class ChartMachine(ChartFunctions):
             if event:
                 self.clock.saw(event, self.active)
             if self.begun:
+                self._give()
                 self._execute_root()
             else:
                 self._first()
@@ -113,6 +124,12 @@ class ChartMachine(ChartFunctions):
                 self._enter_children(root, [])
         else:
             self._flow(root)
+
+    def _give(self) -> None:
+        """A Moore chart computes its outputs before it takes transitions: outer states before inner ones."""
+        for node in self.chart.root.every():
+            if node in self.active:
+                self._runner.run(node.sections.get(SectionKind.STATE, ()), self._frame(node))
 
     def _execute_root(self) -> None:
         root = self.chart.root

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.interpret.values import (
@@ -112,11 +113,26 @@ class FreeValues:
         return [each_converted(value, kind, NumberRules()) for value, kind in every]
 
 
-class ChartMemory:
-    """The values of a chart's data; one of an inherited type has that of its first value."""
+class SharedCell(Protocol):
+    """A value that a chart shares with other blocks."""
 
-    def __init__(self, types: TypeTable, rules: NumberRules, free: FreeValues | None = None) -> None:
-        self.types, self.rules = types, rules
+    value: MatlabValue
+
+    def write(self, value: MatlabValue) -> None:
+        """A new value.  Raises ``DrawnFault`` for one of another type or size."""
+
+
+class ChartMemory:
+    """The values of a chart's data; one of an inherited type has that of its first value.
+
+    ``shared`` are those that stand elsewhere, by SSID.
+    """
+
+    def __init__(
+        self, types: TypeTable, rules: NumberRules, free: FreeValues | None = None,
+        shared: Mapping[int, SharedCell] | None = None,
+    ) -> None:  # fmt: skip
+        self.types, self.rules, self.shared = types, rules, shared or {}
         self.free = free or FreeValues()
         self._data: dict[int, DrawnData] = {}
         self._kinds: dict[int, str] = {}
@@ -138,6 +154,9 @@ class ChartMemory:
 
     def declare(self, one: DrawnData, initial: str, value_of: Callable[[str], MatlabValue]) -> None:
         """A datum with its initial value, as written.  Raises ``DrawnFault``."""
+        if one.ssid in self.shared:
+            self._data[one.ssid] = one
+            return
         kind = self.types.kind(one.type)
         rows, columns = dimensions(one.size)
         self._data[one.ssid], self._kinds[one.ssid] = one, kind
@@ -164,6 +183,9 @@ class ChartMemory:
 
     def write(self, ssid: int, value: MatlabValue) -> None:
         """A new value, in the type of the datum; one without a type takes that of its first value."""
+        if ssid in self.shared:
+            cell = self.shared[ssid]
+            self._kinds[ssid], self._initial[ssid] = cell.value.kind, cell.value
         kind = self._kinds[ssid]
         if not kind:
             kind = self._kinds[ssid] = "double" if value.kind == LITERAL else value.kind
@@ -172,18 +194,33 @@ class ChartMemory:
         if isinstance(value, Structure) or kind.startswith(BUS):
             if value.kind != kind:
                 raise DrawnFault(f"{self._data[ssid].name} is of {kind}, and its value of {value.kind}")
-            self.values[ssid] = value
+            self._put(ssid, value)
             return
         size = shape(self._initial[ssid])
         made = self._fitted(value, kind, size)
         if shape(made) != size:
             told = "x".join(map(str, shape(made)))
             raise DrawnFault(f"{self._data[ssid].name} is of {size[0]}x{size[1]}, and its value of {told}")
-        self.values[ssid] = made
+        self._put(ssid, made)
+
+    def _put(self, ssid: int, value: MatlabValue) -> None:
+        if ssid in self.shared:
+            self.shared[ssid].write(value)
+        else:
+            self.values[ssid] = value
+
+    def read(self, ssid: int) -> MatlabValue:
+        """The value of a datum."""
+        return self.shared[ssid].value if ssid in self.shared else self.values[ssid]
 
     def reset(self, ssid: int) -> None:
         """Its initial value again."""
         self.values[ssid] = self._initial[ssid]
+
+    def reset_all(self) -> None:
+        """All of them, and there was no step before."""
+        self.values |= self._initial
+        self.before, self.start = {}, {}
 
     def note_start(self) -> None:
         """A step begins."""
@@ -212,4 +249,4 @@ def datum_of(node: StateNode, name: str) -> DrawnData | None:
     return next((one.data[name] for one in node.lineage() if name in one.data), None)
 
 
-__all__ = ["BUS", "ENUM", "ChartMemory", "TypeTable", "datum_of", "dimensions"]
+__all__ = ["BUS", "ENUM", "ChartMemory", "SharedCell", "TypeTable", "datum_of", "dimensions"]

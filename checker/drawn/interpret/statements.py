@@ -38,6 +38,7 @@ from rovercheck.checker.drawn.interpret.values import (
     scalars,
     shape,
 )
+from rovercheck.checker.drawn.stores import NO_GLOBAL
 
 
 class _Break(Exception): ...
@@ -116,6 +117,11 @@ class StatementRunner(Evaluator):
                 raise _Continue
             case ReturnStatement():
                 raise _Return
+            case NameDeclaration("global", names):
+                for name in names:
+                    datum = datum_of(frame.node, name)
+                    if datum is None or datum.ssid not in self.memory.shared:
+                        raise DrawnFault(f"`global` {name}: {NO_GLOBAL}")
             case NameDeclaration(_, names):
                 frame.kept = frame.kept | set(names)
                 for name in names:

@@ -1,19 +1,27 @@
 """The blocks of one system at work: charts, subsystems and what is around them, step by step."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from copy import deepcopy
-from dataclasses import dataclass, field
 from functools import partial
 from typing import Protocol
 
-from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of, is_called
+from rovercheck.checker.drawn.calls import (
+    GENERATOR,
+    FunctionCall,
+    call_event,
+    calls_of,
+    is_called,
+    iterations,
+    rate_said,
+)
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.free import FREE_BLOCK
+from rovercheck.checker.drawn.interpret.block import BlockAtWork, edge, told
 from rovercheck.checker.drawn.interpret.blocks import BLOCKS
 from rovercheck.checker.drawn.interpret.delays import without_type
 from rovercheck.checker.drawn.interpret.machine import ChartMachine
 from rovercheck.checker.drawn.interpret.memory import FreeValues, TypeTable
+from rovercheck.checker.drawn.interpret.stores import StoresAtWork
 from rovercheck.checker.drawn.interpret.values import (
     TYPES,
     MatlabValue,
@@ -28,8 +36,9 @@ from rovercheck.checker.drawn.merges import UNSAID, merged
 from rovercheck.checker.drawn.parameters import rate_of, same_number
 from rovercheck.checker.drawn.parsed import output_events, parsed_chart
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnSystem
-from rovercheck.checker.drawn.resets import begins_anew, resets_refused
+from rovercheck.checker.drawn.resets import begins_anew, is_reset, resets_refused
 from rovercheck.checker.drawn.simulink_functions import SimulinkFunction, simulink_functions
+from rovercheck.checker.drawn.store_order import MEMORY, READ, WRITE
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, SystemWiring, number_of, wired
 
 
@@ -37,6 +46,7 @@ class SharedParts(Protocol):
     """What all systems of a model share."""
 
     types: TypeTable
+    stores: StoresAtWork
     step_length: str
     named: dict[str, str]
     free: FreeValues
@@ -48,38 +58,8 @@ class SharedParts(Protocol):
         """The value of a parameter.  Raises ``DrawnFault``."""
 
 
-OTHERS = ("Inport", "Outport", "Merge", FREE_BLOCK, *CONTROL)
-"""The blocks without a formula that are known here, beside charts, subsystems and delays."""
-
-
-@dataclass
-class BlockAtWork:
-    """A block at work: ``inputs`` are what feeds its input ports, by their numbers."""
-
-    block: DrawnBlock
-    inputs: list[tuple[str, int] | None]
-    system: "SystemAtWork | None" = None
-    chart: ChartMachine | None = None
-    control: str = ""
-    fed: tuple[str, int] | None = None
-    """What feeds its control port."""
-    trigger: str = "rising"
-    memory: MatlabValue | None = None
-    outputs: list[MatlabValue] = field(default_factory=list)
-    typed: bool = False
-    """Whether the outputs of its system have their types, also if that was not executed yet."""
-    turn: int = 0
-    """In the how many-th turn of a subsystem in its system it was executed last; 0: in none."""
-    was: list[float] = field(default_factory=list)
-    """The values of its trigger in the step before."""
-    functions: "list[SystemAtWork]" = field(default_factory=list)
-    """Of a chart its Simulink functions."""
-    calls: Mapping[str, FunctionCall | None] = field(default_factory=dict)
-    """Of a chart its events that are function calls, and what they call."""
-    called: bool = False
-    """Whether it is executed where a chart calls it, and never else."""
-    tried: bool = False
-    """Whether it is executed in any step, whatever controls it."""
+OTHERS = (GENERATOR, FREE_BLOCK, "Inport", "Outport", "Merge", MEMORY, READ, WRITE, *CONTROL)
+"""The kinds of blocks that do more than compute their outputs from their inputs."""
 
 
 class SystemAtWork:
@@ -87,7 +67,7 @@ class SystemAtWork:
 
     def __init__(self, system: DrawnSystem, runner: SharedParts) -> None:
         self._runner, self._turns = runner, 0
-        wiring = wired(system)
+        wiring = wired(system, runner.stores.stores.uses)
         self._nodes = [self._node(block, wiring) for block in wiring.order]
         self._by_id = {node.block.id: node for node in self._nodes}
         ends = [node for node in self._nodes if node.block.kind == "Outport"]
@@ -95,13 +75,15 @@ class SystemAtWork:
         blocks = {name: node.block for name, node in self._by_id.items()}
         for node in self._nodes:
             if node.block.kind == "Merge":
-                with _told(node):
+                with told(node):
                     merged(node.block, node.inputs, blocks)
             if node.chart is not None:
                 node.calls = self._calls_of(node.block, node.chart, wiring)
                 node.outputs = outputs_of(node.chart)
             elif node.system is not None:
                 node.outputs = node.system.at_rest()
+            elif node.block.kind == GENERATOR:
+                node.calls = {GENERATOR: wiring.calls.get((node.block.id, 1), ())}
 
     def _node(self, block: DrawnBlock, wiring: SystemWiring) -> BlockAtWork:
         self._check(block)
@@ -114,7 +96,8 @@ class SystemAtWork:
             if chart.notes:
                 raise DrawnFault(str(chart.notes[0]))
             of = self._runner
-            node.chart = ChartMachine(chart, of.types, of.step_length, of.named, of.free)
+            shared = of.stores.of(chart)
+            node.chart = ChartMachine(chart, of.types, of.step_length, of.named, of.free, shared)
             for function in simulink_functions(block, chart):
                 inside = SystemAtWork(function.system, of)
                 node.functions.append(inside)
@@ -131,7 +114,7 @@ class SystemAtWork:
 
     def _calls_of(
         self, block: DrawnBlock, machine: ChartMachine, wiring: SystemWiring
-    ) -> Mapping[str, FunctionCall | None]:
+    ) -> Mapping[str, Sequence[FunctionCall]]:
         outputs = sum(one.scope == "output" for one in machine.chart.root.data.values())
         blocks = {name: node.block for name, node in self._by_id.items()}
         events = output_events(machine.chart.root)
@@ -139,8 +122,8 @@ class SystemAtWork:
 
     def _check(self, block: DrawnBlock) -> None:
         """Refuse what would make a block run at another rate, or begin anew.  Raises ``DrawnFault``."""
-        path, parameters = " ".join(block.path.split()), block.parameters
-        written = parameters.get("SampleTime", "-1")
+        path = " ".join(block.path.split())
+        written = rate_said(block)
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
             written = chart.sample_time.strip() or "-1"
         rate = rate_of(written, self._runner.named)
@@ -209,6 +192,19 @@ class SystemAtWork:
             for one in (*node.functions, node.system):
                 yield from () if one is None else one.nodes()
 
+    def begin_anew(self) -> None:
+        """All is as before the first step: what charts and delays remember."""
+        for node in self._nodes:
+            if node.memory is not None:
+                first = self._runner.value_of(node.block.parameters.get("InitialCondition", "0"))
+                plain = node.memory.kind in TYPES
+                node.memory = each_converted(first, node.memory.kind, NumberRules()) if plain else first
+            elif node.chart is not None:
+                node.chart.begin_anew()
+                node.outputs = outputs_of(node.chart)
+            elif node.system is not None:
+                node.system.begin_anew()
+
     def machines(self) -> Iterator[ChartMachine]:
         """The charts here and in subsystems, in their order of execution."""
         return (node.chart for node in self.nodes() if node.chart is not None)
@@ -217,7 +213,7 @@ class SystemAtWork:
         """The outputs of the system in one step."""
         for node in self._nodes:
             if node.tried or not node.called:
-                with _told(node):
+                with told(node):
                     node.outputs = self._executed(node, inputs)
         found = [self._values(node)[0] for node in self._ends]
         delays = [node for node in self._nodes if node.block.kind in DELAYS]
@@ -231,9 +227,17 @@ class SystemAtWork:
             return [inputs[number_of(block) - 1]]
         if node.memory is not None:
             return [node.memory]
-        if block.kind == "Outport" or block.kind in CONTROL:
+        if block.kind in ("Outport", MEMORY, *CONTROL):
             return []
         values = self._values(node)
+        if block.kind == GENERATOR:
+            written = block.parameters.get("numberOfIterations", "1")
+            number = scalars(self._runner.value_of(written))
+            for _ in range(iterations(number[0].value if len(number) == 1 else None)):
+                self._call(node, GENERATOR)
+            return []
+        if block.kind in (READ, WRITE):
+            return self._runner.stores.executed(block, values)
         if node.chart is not None:
             return self._charted(node, node.chart, values)
         if node.system is not None:
@@ -273,7 +277,8 @@ class SystemAtWork:
     ) -> list[MatlabValue]:
         """The outputs of a system before its first step: 0 in the types that a step would give them."""
         try:
-            given = deepcopy(system, {id(self._runner): self._runner}).step(values)
+            with self._runner.stores.kept():
+                given = deepcopy(system, {id(self._runner): self._runner}).step(values)
         except DrawnFault:
             return node.outputs
         pairs = zip(node.outputs, given, strict=True)
@@ -308,10 +313,14 @@ class SystemAtWork:
             return True
         now = [float(one.value) for one in scalars(self._value(node.fed))]
         if node.control == "enable":
-            return any(one > 0 for one in now)
+            was, node.on = node.on, any(one > 0 for one in now)
+            inside = node.block.system
+            if node.on and not was and inside is not None and is_reset(inside) and node.system is not None:
+                node.system.begin_anew()
+            return node.on
         if node.control == "trigger":
             before, node.was = node.was, now
-            return any(_edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
+            return any(edge(node.trigger, a, b) for a, b in zip(before, now, strict=False))
         raise DrawnFault(f"a subsystem that is controlled by {node.control} is not known here")
 
     def _charted(
@@ -335,12 +344,19 @@ class SystemAtWork:
 
         What that gives is seen by the chart at once, where it is among its inputs.
         """
-        call = caller.calls[event]
-        if call is None or caller.chart is None:
-            return  # nothing is connected
-        caller.outputs = outputs_of(caller.chart)
+        if caller.chart is not None:
+            caller.outputs = outputs_of(caller.chart)
+        for call in caller.calls[event]:
+            self._execute(call)
+        if caller.chart is None:
+            return
+        called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
+        pairs = zip(self._values(caller), called, strict=True)
+        self._feed(caller.chart, [value if by_call else None for value, by_call in pairs])
+
+    def _execute(self, call: FunctionCall) -> None:
         node = self._by_id[call.target]
-        with _told(node):
+        with told(node):
             values = self._values(node)
             if node.chart is not None:
                 self._feed(node.chart, values)
@@ -349,9 +365,6 @@ class SystemAtWork:
             elif node.system is not None:
                 self._begin(node)
                 node.outputs = node.system.step(values)
-        called = (port is not None and self._by_id[port[0]].called for port in caller.inputs)
-        pairs = zip(self._values(caller), called, strict=True)
-        self._feed(caller.chart, [value if by_call else None for value, by_call in pairs])
 
     def _events(self, node: BlockAtWork, machine: ChartMachine) -> list[str] | None:
         """The input events of this step; ``None`` for a chart without any, which runs in every step."""
@@ -361,16 +374,7 @@ class SystemAtWork:
         now = [] if node.fed is None else [float(one.value) for one in scalars(self._value(node.fed))]
         before, node.was = node.was, now
         found = zip(every, before, now, strict=False)
-        return [one.name for one, old, new in found if _edge(one.trigger, old, new)]
-
-
-@contextmanager
-def _told(node: BlockAtWork) -> Iterator[None]:
-    """What has no meaning is told with its block."""
-    try:
-        yield
-    except DrawnFault as fault:
-        raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+        return [one.name for one, old, new in found if edge(one.trigger, old, new)]
 
 
 def _executed(
@@ -385,14 +389,6 @@ def _port(node: BlockAtWork) -> tuple[str, int]:
     port = node.inputs[0]
     assert port is not None
     return port
-
-
-def _edge(kind: str, before: float, now: float) -> bool:
-    """Whether a signal rises or falls through 0 as a trigger of a kind asks for."""
-    if kind in ("function call", "function-call"):
-        raise DrawnFault("an event that is a function call, and a signal with edges comes in")
-    rises, falls = before <= 0 < now, before > 0 >= now
-    return {"rising": rises, "falling": falls}.get(kind, rises or falls)
 
 
 __all__ = ["SystemAtWork"]

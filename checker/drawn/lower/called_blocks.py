@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Protocol
 
-from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of
+from rovercheck.checker.drawn.calls import FunctionCall, call_event, calls_of, iterations
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.chart_blocks import ChartBlockWriter
 from rovercheck.checker.drawn.lower.chart_functions import ExecutedFunction
 from rovercheck.checker.drawn.lower.machine import ChartWriter
-from rovercheck.checker.drawn.lower.program import ProgramPart, ProgramWriter
-from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic
+from rovercheck.checker.drawn.lower.program import ProgramPart, ProgramWriter, joined
+from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic, flat
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.parsed import ParsedChart, output_events
@@ -88,7 +88,7 @@ class CalledBlockWriter(ChartBlockWriter):
     def _inside(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         """All that a subsystem does in a step in which it is executed; its outputs keep their values."""
 
-    def _calls_of(self, node: BlockNode, chart: ParsedChart) -> dict[str, FunctionCall | None]:
+    def _calls_of(self, node: BlockNode, chart: ParsedChart) -> dict[str, Sequence[FunctionCall]]:
         wiring, outputs = self._wiring, sum(one.scope == "output" for one in chart.root.data.values())
         blocks = {name: one.block for name, one in self._by_id.items()}
         try:
@@ -101,12 +101,8 @@ class CalledBlockWriter(ChartBlockWriter):
     def _call_all(self, node: BlockNode, chart: ParsedChart, made: ChartWriter) -> list[ProgrammedChart]:
         calls, parts = self._calls_of(node, chart), ExecutedParts()
         made.executed = self._functions(node, chart, made, parts)
-        written: dict[FunctionCall, ProgramPart] = {}
-        every = [call for call in calls.values() if call is not None]
-        for target in self._in_order({call.target for call in every}):
-            own = [call for call in every if call.target == target]
-            written |= zip(own, self._called(self._by_id[target], own, parts), strict=True)
-        made.called = {name: written[call] for name, call in calls.items() if call is not None}
+        written = self._written([call for some in calls.values() for call in some], parts)
+        made.called = {name: joined(*(written[call] for call in some)) for name, some in calls.items()}
         made.borrowed = parts.temporaries
         made.writer.temporaries |= parts.temporaries
         made.view.fired |= parts.fired
@@ -114,6 +110,37 @@ class CalledBlockWriter(ChartBlockWriter):
         made.view.rivals |= parts.rivals
         made.view.overflows |= parts.overflows
         return parts.charts
+
+    def _written(
+        self, calls: Sequence[FunctionCall], parts: ExecutedParts
+    ) -> dict[FunctionCall, ProgramPart]:  # fmt: skip
+        """What each of some calls has executed."""
+        written: dict[FunctionCall, ProgramPart] = {}
+        for target in self._in_order({call.target for call in calls}):
+            own = [call for call in calls if call.target == target]
+            written |= zip(own, self._called(self._by_id[target], own, parts), strict=True)
+        return written
+
+    def _generated(self, node: BlockNode) -> list[Component]:
+        """What a generator of function calls calls in each step."""
+        parts, calls = ExecutedParts(), self._wiring.calls.get((node.block.id, 1), ())
+        number = flat(self.context.value_of(node.block.parameters.get("numberOfIterations", "1")))
+        try:
+            times = iterations(number[0].constant if len(number) == 1 else None)
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
+        written = self._written(calls, parts)
+        statements, _ = joined(*[written[call] for call in calls] * times)
+        temporaries = tuple(parts.temporaries.values())
+        if not parts.charts:
+            return [Block(self._named(node.block), statements, temporaries=temporaries)]
+        *others, last = parts.charts  # the last stands for all: only charts may enter states
+        places = tuple(place for one in others for place in (one.entered, *one.locations))
+        program = StepProgram(
+            tuple(statements), temporaries, last.program.starting, parts.fired, parts.tested, parts.rivals,
+            parts.overflows, places,
+        )  # fmt: skip
+        return [*others, last.with_program(program)]
 
     def _functions(
         self, node: BlockNode, chart: ParsedChart, made: ChartWriter, parts: ExecutedParts

@@ -32,7 +32,9 @@ from rovercheck.spec_model.lang.system import Program
 
 
 class ChartBlockWriter(TriggerWriter):
-    """The charts of one system."""
+    """The charts of one system; ``writer_of`` writes what a chart does."""
+
+    writer_of: type[ChartWriter] = ChartWriter
 
     @abstractmethod
     def _call_all(self, node: BlockNode, chart: ParsedChart, made: ChartWriter) -> list[ProgrammedChart]:
@@ -120,10 +122,12 @@ class ChartBlockWriter(TriggerWriter):
 
     def _writer(self, chart: ParsedChart, view: ChartView, writer: ProgramWriter) -> ChartWriter:
         context = self.context
-        return ChartWriter(
+        made = self.writer_of(
             chart, view, context.table, writer, context.step, context.named,
             lambda one, node: context.names.of_datum(chart.drawn, one, node),
         )  # fmt: skip
+        made.cells |= context.stores.of(chart)
+        return made
 
     def _feed(self, made: ChartWriter, chart: ParsedChart, node: BlockNode) -> None:
         """The inputs of a chart; what is called while it is executed is read as it is then."""

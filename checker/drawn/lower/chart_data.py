@@ -27,6 +27,7 @@ from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parameters import expanded, seen_in
 from rovercheck.checker.drawn.parsed import FunctionNode, ParsedChart, StateNode, output_events
 from rovercheck.checker.drawn.records import DrawnData
+from rovercheck.checker.drawn.stores import DATA_STORE
 from rovercheck.spec_model.lang.expr import FALSE, Var
 
 
@@ -51,7 +52,7 @@ class ChartDataWriter(StatementWriter):
     def _declare_all(self) -> None:
         for node in self.chart.root.every():
             for one in node.data.values():
-                if one.scope != "input":
+                if one.scope not in ("input", DATA_STORE):  # these stand elsewhere
                     self.cells[one.ssid] = self._declared(one, node)
             for function in node.functions.values():
                 for one in function.data.values():
@@ -112,7 +113,7 @@ class ChartDataWriter(StatementWriter):
 
     def datum(self, one: DrawnData, value: Symbolic) -> Symbolic:
         """The cells of a datum; one without a type takes that of its first value."""
-        if not self.table.kinds.kind(one.type) and one.scope != "input":
+        if not self.table.kinds.kind(one.type) and one.scope not in ("input", DATA_STORE):
             kind = "double" if value.kind == UNTYPED else value.kind
             cells = self.cells[one.ssid]
             name = next(leaf for leaf, _ in leaves(cells, self._datum_name(one)))

@@ -20,6 +20,7 @@ from rovercheck.checker.drawn.lower.times import COUNTED, LIMITS, UNITS, ChartTi
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnData
+from rovercheck.checker.drawn.stores import CHANGES_OF_STORES, DATA_STORE
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import FALSE, Expr, Var, all_of
 
@@ -126,6 +127,8 @@ class WordWriter(ActiveStateWriter):
         one = datum_in(scope.node, of.name) if isinstance(of, Name) else None
         if one is None:
             raise NotLowered("changes are seen of a datum: name one")
+        if one.scope == DATA_STORE:
+            raise NotLowered(CHANGES_OF_STORES)
         watched = self.table.watched.setdefault(self.writer.name, {})
         name = (
             one.name if one.name not in watched or watched[one.name] == one.ssid else f"{one.name}_{one.ssid}"

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.grammar.errors import GrammarError
 from rovercheck.checker.drawn.grammar.expressions import parse_expression
 from rovercheck.checker.drawn.grammar.syntax import ActionLanguage
@@ -12,11 +13,13 @@ from rovercheck.checker.drawn.lower.machine import ChartWriter
 from rovercheck.checker.drawn.lower.model_names import ModelNames
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.program import ProgramWriter
+from rovercheck.checker.drawn.lower.stores import StoreVariables
 from rovercheck.checker.drawn.lower.symbols import NotLowered, Symbolic, SymbolicScalar
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.parameters import expanded, values_of
 from rovercheck.checker.drawn.parsed import ParsedChart, StateNode
 from rovercheck.checker.drawn.records import DrawnChart, DrawnContent, DrawnModel
+from rovercheck.checker.drawn.stores import data_stores
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import Expr, Var
 
@@ -41,6 +44,10 @@ class LoweringContext:
         self.starts: list[ProgramWriter] = []
         """What charts do that are entered when they are initialized."""
         self.temporaries: set[str] = set()
+        try:
+            self.stores = StoreVariables(self, data_stores(model.system, charts))
+        except DrawnFault as fault:
+            raise NotLowered(str(fault)) from fault
         self.memories: dict[str, Var] = {}
         """What delays remember, by name: that changes when all else is done."""
         self.inputs: dict[str, Var] = {}

@@ -11,6 +11,7 @@ from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.parsed import parsed_chart
 from rovercheck.checker.drawn.records import DrawnModel
+from rovercheck.checker.drawn.refused import notes_of
 from rovercheck.spec_model.lang.domain import Domain
 
 ATTEMPTS = 24
@@ -37,6 +38,9 @@ def lowered_model(
 def _lowered(
     model: DrawnModel, file: str, domains: Mapping[str, Domain], step: str, systems: type[SystemWriter]
 ) -> LoweredModel:
+    for note in notes_of(model):
+        if note.kind == "refused":
+            raise NotLowered(str(note).rstrip("."))
     charts = {one.path: parsed_chart(one) for one in model.charts}
     for parsed in charts.values():
         if parsed.notes:

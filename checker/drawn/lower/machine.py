@@ -141,11 +141,18 @@ class ChartWriter(TransitionWriter):
         if self._flows_only:
             self._flow()
         elif self.chart.drawn.at_initialization:
+            self._compute()
             self._execute_root()
         else:
             self.writer.choose(self._has_begun, self._execute_root, self._first)
             self.writer.end_alike(self.view.begun.name)
         self._stack.pop()
+
+    def _compute(self) -> None:
+        """The outputs of a Moore chart, before it takes transitions: those of outer states first."""
+        for node in self.chart.root.every():
+            if actions := node.sections.get(SectionKind.STATE):
+                self.writer.choose(self.active(node), partial(self._answer, node, actions))
 
     def _first(self) -> None:
         self.writer.assign(self.view.begun, Const(1, self.view.begun.sort))

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.parsed import StateNode
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnChart, DrawnData, DrawnModel
+from rovercheck.checker.drawn.stores import DATA_STORE
 
 
 class ModelNames:
@@ -16,7 +17,8 @@ class ModelNames:
         self._blocks: dict[str, str] = {}
         self.data_written = _written(model)
         """The names of data that charts write, and of ports."""
-        self._data = {one.name for chart in model.charts for one in chart.content.data}
+        data = (one for chart in model.charts for one in chart.content.data)
+        self._data = {one.name for one in data if one.scope != DATA_STORE}
         self._data |= {one.shown for one in model.system.blocks if one.kind in ("Inport", "Outport")}
 
     def of_chart(self, chart: DrawnChart) -> str:
@@ -56,7 +58,9 @@ def _written(model: DrawnModel) -> set[str]:
 
 def _shared_names(model: DrawnModel) -> set[str]:
     """Names that are no name of one datum alone: of several data, of root inputs, or of other outputs."""
-    seen: list[str] = [d.name for chart in model.charts for d in chart.content.data if d.scope != "input"]
+    seen: list[str] = [
+        d.name for chart in model.charts for d in chart.content.data if d.scope not in ("input", DATA_STORE)
+    ]
     ports = [one.shown for one in model.system.blocks if one.kind == "Inport"]
     return {name for name in seen if seen.count(name) > 1} | set(ports)
 

@@ -9,6 +9,7 @@ from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.symbols import NotLowered
 from rovercheck.checker.drawn.parsed import FunctionNode, StateNode
 from rovercheck.checker.drawn.records import DrawnData
+from rovercheck.checker.drawn.stores import DATA_STORE, NO_GLOBAL
 from rovercheck.spec_model.lang.expr import Expr, Var
 
 
@@ -45,6 +46,14 @@ def datum_in(node: StateNode, name: str) -> DrawnData | None:
         if name in one.data:
             return one.data[name]
     return None
+
+
+def refuse_other_globals(names: Sequence[str], node: StateNode) -> None:
+    """Raises ``NotLowered`` for a global variable that is no data store."""
+    for name in names:
+        one = datum_in(node, name)
+        if one is None or one.scope != DATA_STORE:
+            raise NotLowered(f"`global` {name}: {NO_GLOBAL}")
 
 
 def function_in(node: StateNode, name: str) -> FunctionNode | None:
@@ -95,4 +104,4 @@ def _names_end(node: StateNode, path: Sequence[str]) -> bool:
     return names[: len(path)] == list(path)[::-1]
 
 
-__all__ = ["TextScope", "datum_in", "function_in", "state_in", "words"]
+__all__ = ["TextScope", "datum_in", "function_in", "refuse_other_globals", "state_in", "words"]

@@ -26,7 +26,7 @@ from rovercheck.checker.drawn.lower.arithmetic import binary
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, converted, each_converted
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
-from rovercheck.checker.drawn.lower.names import TextScope, datum_in
+from rovercheck.checker.drawn.lower.names import TextScope, datum_in, refuse_other_globals
 from rovercheck.checker.drawn.lower.operators import ONE, compound
 from rovercheck.checker.drawn.lower.symbols import (
     MADE,
@@ -139,8 +139,8 @@ class StatementWriter(ExpressionWriter):
                 scope.kept.update(names)
                 for name in names:
                     self._recall(name, scope)
-            case NameDeclaration(keyword):
-                raise NotLowered(f"`{keyword}` variables: pass the value")
+            case NameDeclaration("global", names):
+                refuse_other_globals(names, scope.node)
 
     def _end(self, flag: Var | None, word: str) -> None:
         if flag is None:

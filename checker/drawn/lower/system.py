@@ -1,8 +1,9 @@
 """One system of blocks, in the order of their execution, with the subsystems in it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from rovercheck.checker.drawn.calls import is_called
+from rovercheck.checker.drawn.calls import GENERATOR, is_called
 from rovercheck.checker.drawn.faults import BY_ZERO
 from rovercheck.checker.drawn.free import FREE_BLOCK
 from rovercheck.checker.drawn.lower.blocks import BLOCKS
@@ -23,12 +24,14 @@ from rovercheck.checker.drawn.lower.view import plain_name
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.records import DrawnBlock, DrawnSystem
 from rovercheck.checker.drawn.refused import FREE
-from rovercheck.checker.drawn.resets import begins_anew, resets_refused
+from rovercheck.checker.drawn.resets import begins_anew, is_reset, resets_refused
+from rovercheck.checker.drawn.store_order import MEMORY, READ, WRITE
 from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
+from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of, const
-from rovercheck.spec_model.lang.programmed import FAULT
+from rovercheck.spec_model.lang.programmed import FAULT, ProgrammedChart, is_fault
 
 
 class SystemWriter(CalledBlockWriter):
@@ -57,8 +60,17 @@ class SystemWriter(CalledBlockWriter):
         block = node.block
         if block.kind == "Inport":
             node.outputs = [given[number_of(block) - 1]]
-        elif node.memory is not None or block.kind == "Outport" or block.kind in CONTROL:
+        elif node.memory is not None or block.kind in ("Outport", MEMORY, *CONTROL):
             return []
+        elif block.kind == GENERATOR:
+            return self._generated(node)
+        elif block.kind == READ:
+            read, component = self.context.stores.read(block, self._named(block))
+            node.outputs = [read]
+            self.own |= component.written.keys()
+            return [component]
+        elif block.kind == WRITE:
+            return [self.context.stores.write(block, self._named(block), self._values(node)[0])]
         elif block.chart:
             return self._chart(node)
         elif block.kind == "SubSystem" and block.system is not None:
@@ -101,10 +113,12 @@ class SystemWriter(CalledBlockWriter):
             return list(components)
         by: Expr = FALSE
         after: list[Component] = []
+        resets = False
         if is_called(block):
             pass  # and nothing calls it
         elif node.control == "enable":
             by = folded(any_of(*(folded(one > 0) for one in self._control(node))))
+            resets = is_reset(system)
         elif node.control == "trigger":
             ports = [one for one in system.blocks if one.kind == "TriggerPort"]
             kind = ports[0].parameters.get("TriggerType", "rising") if ports else "rising"
@@ -115,7 +129,17 @@ class SystemWriter(CalledBlockWriter):
         inside = self._inside(node, system)
         name = plain_name(block.name)
         anew = [Enabled(folded(~by), *node.anew, name=f"{name}_disabled")] if node.anew else []
+        if resets:
+            on = Var(f"{self._named(block)}.enabled", boolean, 0, f"whether {block.path} was enabled", True)
+            inside = [self._first_of_all(name, on, inside), *(_entered_anew(one, on) for one in inside)]
+            after = [Block(f"{name}_was", [Assign(on, by)], text=f"Whether {block.path} was enabled.")]
         return [*anew, *([Enabled(by, *inside, name=name)] if inside else []), *after]
+
+    def _first_of_all(self, name: str, on: Var, components: Sequence[Component]) -> Block:
+        """All data that some components write are as before the first step, unless ``on`` holds."""
+        every = {one: var for part in parts(components) for one, var in part.written.items()}
+        first = tuple(_at_first(var) for var in every.values() if not is_fault(var))
+        return Block(f"{name}_anew", [If(folded(~on), first)], text="All begins anew.")
 
     def _inner(self, name: str, system: DrawnSystem) -> "SystemWriter":
         return type(self)(system, self.context, f"{self._path}_{name}".strip("_"))
@@ -170,6 +194,18 @@ class SystemWriter(CalledBlockWriter):
                 )
             outputs.append(cells)
         return held, outputs
+
+
+def _entered_anew(one: Component, on: Var) -> Component:
+    """A chart in which no state is active where it begins, unless ``on`` holds; others stay."""
+    if not isinstance(one, ProgrammedChart):
+        return one
+    program, first = one.program, tuple(map(_at_first, (one.entered, *one.locations)))
+    return one.with_program(replace(program, statements=(If(folded(~on), first), *program.statements)))
+
+
+def _at_first(var: Var) -> Assign:
+    return Assign(var, Const(var.init, var.sort))
 
 
 __all__ = ["SystemWriter"]

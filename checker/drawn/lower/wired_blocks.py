@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from rovercheck.checker.drawn.calls import Port
+from rovercheck.checker.drawn.calls import Port, rate_said
 from rovercheck.checker.drawn.faults import DrawnFault
 from rovercheck.checker.drawn.lower.blocks import either
 from rovercheck.checker.drawn.lower.context import LoweringContext
@@ -59,7 +59,7 @@ class WiredBlocks:
     def __init__(self, system: DrawnSystem, context: LoweringContext, path: str) -> None:
         self.context, self._path = context, path
         try:
-            self._wiring: SystemWiring = wired(system)
+            self._wiring: SystemWiring = wired(system, context.stores.stores.uses)
         except DrawnFault as fault:
             raise NotLowered(str(fault)) from fault
         self.nodes = [self._node(block) for block in self._wiring.order]
@@ -77,7 +77,7 @@ class WiredBlocks:
         control = [port for target, port in feeds if target == block.id and not port.isdigit()]
         if control:
             node.control, node.fed = control[0], feeds[block.id, control[0]]
-        rate = block.parameters.get("SampleTime", "-1")
+        rate = rate_said(block)
         if block.chart:
             chart = self.context.chart(block.chart).drawn
             rate = chart.sample_time.strip() or "-1" if chart.update == "discrete" else rate

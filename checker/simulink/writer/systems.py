@@ -54,6 +54,11 @@ class WrittenSystem:
         self.blocks.append(block)
         return block.sid
 
+    def say(self, sid: str, **values: object) -> None:
+        """Further values of a block that is there."""
+        block = next(one for one in self.blocks if one.sid == sid)
+        block.values = {**block.values, **values}
+
     def inport(self, name: str, number: int, **values: object) -> str:
         """An input of this system."""
         return self.add(WrittenBlock(self.numbers(), "Inport", name, {}, {**_port(number), **values}))
@@ -147,6 +152,7 @@ def _block(block: WrittenBlock, number: int, parts: Parts | None, last: int) -> 
     inside, ports, values = block.inside, block.ports, block.values
     if isinstance(inside, WrittenChart):
         inside, ports, values = _of_chart(block.sid, inside)
+        values = {**values, **block.values}
     root = made("Block", {"BlockType": block.kind, "Name": block.name, "SID": block.sid})
     if parts is not None and ports:
         below(root, "PortCounts", None, **{kind: str(count) for kind, count in ports.items()})

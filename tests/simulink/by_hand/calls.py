@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from rovercheck.checker.simulink.writer.packages import WrittenModel
+from rovercheck.checker.simulink.writer.systems import WrittenSystem
 from tests.simulink.by_hand.models import ByHand, Given, Told, tell
 
 CALL = "FUNCTION_CALL_EVENT"
@@ -161,7 +162,126 @@ def _atomic_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
         yield (say.t,)
 
 
+def _split() -> WrittenModel:
+    """A call that splits hand on to a subsystem, a chart and a subsystem again, in the order of outputs."""
+    model = WrittenModel("one", step="0.1")
+    root = model.root
+    block, chart = root.chart("C")
+    chart.data("u", "input", "int8")
+    chart.data("back", "input", "int16")
+    chart.data("m", "output", "int16")
+    chart.event("F", "OUTPUT_EVENT", CALL)
+    state = chart.state("A\ndu: m = int16(u); F; m = back; if u == 2, F; end")
+    chart.transition(None, state)
+    first, last = _adding(root, "First", 10), _adding(root, "Last", 100)
+    other, called = root.chart("D")
+    called.data("i", "input", "int16")
+    called.data("t", "output", "uint32")
+    called.event("P", "INPUT_EVENT", CALL)
+    one, two = called.state(f"S\nen: {tell(1)}\ndu: {tell(2)}"), called.state(f"T\nen: {tell(3)}")
+    called.transition(None, one)
+    called.transition(one, two, "P[i > 25]")
+    called.transition(two, one, "[i < 20]")
+    outer = root.block("FunctionCallSplit", "outer", {"in": 1, "out": 2}, {})
+    inner = root.block("FunctionCallSplit", "inner", {"in": 1, "out": 2}, {}, OutputPortLayout="default")
+    root.line(root.inport("u", 1, OutDataTypeStr="int8"), block)
+    for source, target in (
+        (f"{block}/2", outer), (f"{outer}/2", f"{last}#trigger"), (outer, inner),
+        (inner, f"{first}#trigger"), (f"{inner}/2", f"{other}#trigger"), (block, first), (first, other),
+        (first, last), (last, f"{block}/2"), (block, root.outport("m", 1)), (other, root.outport("t", 2)),
+        (last, root.outport("s", 3)),
+    ):  # fmt: skip
+        root.line(source, target)
+    return model
+
+
+def _adding(root: WrittenSystem, name: str, number: int) -> str:
+    """A called subsystem that gives what comes in, a number, and what it gave before, modulo 2 ** 16."""
+    sub, inside = root.subsystem(name, 1, 1, "trigger")
+    inside.block("TriggerPort", "call", {}, {}, TriggerType="function-call")
+    delay = inside.block("UnitDelay", "last", {"in": 1, "out": 1}, {}, InitialCondition="int16(0)")
+    bias = inside.block("Constant", "bias", {"out": 1}, {}, Value=f"int16({number})")
+    add = inside.block("Sum", "add", {"in": 3, "out": 1}, {}, Inputs="+++", OutDataTypeStr="int16")
+    for source, target in (
+        (inside.inport("i", 1, OutDataTypeStr="int16"), add), (delay, f"{add}/2"), (bias, f"{add}/3"),
+        (add, delay), (add, inside.outport("o", 1)),
+    ):  # fmt: skip
+        inside.line(source, target)
+    return sub
+
+
+def _wrapped(value: int) -> int:
+    return (value + 2**15) % 2**16 - 2**15
+
+
+def _split_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
+    say, entered, state, m, first, last = Told(), False, "", 0, 0, 0
+    for u in given:
+        for number in range(2 if u == 2 else 1) if entered else ():
+            m = m if number else u
+            first = _wrapped(first + m + 10)
+            if not state or (state == "T" and first < 20):
+                say(1)
+                state = "S"
+            elif state == "S" and first > 25:
+                say(3)
+                state = "T"
+            elif state == "S":
+                say(2)
+            last = _wrapped(last + first + 100)
+            m = m if number else last
+        entered = True
+        yield (m, say.t, last)
+
+
+def _generator() -> WrittenModel:
+    """A generator that calls a subsystem and a chart three times in each step, beside one that calls once."""
+    model = WrittenModel("one", step="0.1")
+    root = model.root
+    library = "simulink/Ports & Subsystems/Function-Call Generator"
+    kind = {"SourceBlock": library, "SourceType": "Function-Call Generator", "sample_time": "0.1"}
+    thrice = root.block("Reference", "thrice", {"out": 1}, {}, **kind, numberOfIterations="3")
+    once = root.block("Reference", "once", {"out": 1}, {}, **kind)
+    split = root.block("FunctionCallSplit", "split", {"in": 1, "out": 2}, {})
+    adds, more = _adding(root, "Adds", 1), _adding(root, "More", 2)
+    block, chart = root.chart("D")
+    chart.data("i", "input", "int16")
+    chart.data("t", "output", "uint32")
+    chart.event("P", "INPUT_EVENT", CALL)
+    one, two = chart.state(f"S\nen: {tell(1)}\ndu: {tell(2)}"), chart.state(f"T\nen: {tell(3)}")
+    chart.transition(None, one)
+    chart.transition(one, two, "[mod(i, int16(3)) == 0]")
+    chart.transition(two, one, "[after(2, tick)]")
+    given = root.inport("u", 1, OutDataTypeStr="int16")
+    for source, target in (
+        (thrice, split), (split, f"{adds}#trigger"), (f"{split}/2", f"{block}#trigger"), (adds, block),
+        (once, f"{more}#trigger"), (given, adds), (adds, more), (block, root.outport("t", 1)),
+        (adds, root.outport("a", 2)), (more, root.outport("b", 3)),
+    ):  # fmt: skip
+        root.line(source, target)
+    return model
+
+
+def _generator_by_hand(given: Given) -> Iterator[tuple[float, ...]]:
+    say, state, calls, adds, more = Told(), "", 0, 0, 0
+    for u in given:
+        for _ in range(3):
+            adds, calls = _wrapped(adds + u + 1), calls + 1
+            if not state or (state == "T" and calls >= 2):
+                say(1)
+                state = "S"
+            elif state == "S" and adds % 3 == 0:
+                say(3)
+                state, calls = "T", 0
+            elif state == "S":
+                say(2)
+        more = _wrapped(more + adds + 2)
+        yield (say.t, adds, more)
+
+
 CALLS = (
+    ByHand("split", _split, _split_by_hand),
+    ByHand("generator", _generator, _generator_by_hand),
     ByHand("calls", _calls, _calls_by_hand),
     ByHand("function", _function, _function_by_hand),
     ByHand("atomic", _atomic, _atomic_by_hand),
