@@ -30,19 +30,20 @@ _NUMBERS = re.compile(r"[-+\d.eE\s\[\],;]*")
 
 @dataclass
 class DataStores:
-    """The memories of a model by their paths, what uses them, and of the data of charts which each stands
-    for, by the path of the chart and the name.
-    """  # fmt: skip
+    """The memories of a model by their paths, and the paths of what uses them.
+
+    ``of_data``: which memory a datum of a chart stands for, by the path of the chart and the name.
+    """
 
     memories: dict[str, DrawnBlock] = field(default_factory=dict)
-    uses: dict[str, list[StoreUse]] = field(default_factory=dict)
+    used: dict[str, list[StoreUse]] = field(default_factory=dict)
     of_data: dict[tuple[str, str], str] = field(default_factory=dict)
     types: dict[str, str] = field(default_factory=dict)
     """The types that memories or the data of charts say, as written; none: that of the initial value."""
 
     def memory_of(self, block: DrawnBlock) -> str:
         """The memory of a block that reads or writes one."""
-        return self.uses[block.path][0].memory
+        return self.used[block.path][0].memory
 
     def data_of(self, chart: ParsedChart) -> Iterator[tuple[DrawnData, str]]:
         """The data of a chart that stand for memories, with these."""
@@ -61,7 +62,7 @@ def data_stores(system: DrawnSystem, charts: Mapping[str, ParsedChart]) -> DataS
         types |= set() if written.startswith("Inherit") else {plain_type(written)}
         if len(types) > 1:
             raise DrawnFault(f"{_name(memory)}: it is of {' and of '.join(sorted(types))}: give it one type")
-        users = [one for one, uses in found.uses.items() if any(use.memory == path for use in uses)]
+        users = [one for one, uses in found.used.items() if any(use.memory == path for use in uses)]
         typed = types or any(one not in charts for one in users)
         if not typed and not _NUMBERS.fullmatch(memory.parameters.get("InitialValue", "0")):
             raise DrawnFault(f"{_name(memory)}: its type follows from nothing: give it one, as int32")
@@ -92,7 +93,7 @@ def _read(
     for block in system.blocks:
         if block.kind in (READ, WRITE):
             path = _found(seen, _store(block), _name(block))
-            found.uses[block.path] = [StoreUse(path, block.kind == WRITE)]
+            found.used[block.path] = [StoreUse(path, block.kind == WRITE)]
         elif block.chart and block.chart in charts:
             _read_chart(found, charts[block.chart], seen)
         for inner in block.systems():
@@ -117,7 +118,7 @@ def _read_chart(found: DataStores, chart: ParsedChart, seen: Mapping[str, str]) 
             )
         path = _found(seen, one.name, chart.drawn.path)
         found.of_data[chart.drawn.path, one.name] = path
-        found.uses.setdefault(chart.drawn.path, []).append(StoreUse(path, one.name in written))
+        found.used.setdefault(chart.drawn.path, []).append(StoreUse(path, one.name in written))
 
 
 def _undeclared(chart: ParsedChart, name: str) -> str:

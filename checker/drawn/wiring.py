@@ -174,7 +174,7 @@ def _callers(calls: Calls) -> dict[str, str]:
 
 def _ordered(
     blocks: Iterable[DrawnBlock], feeds: Mapping[tuple[str, str], Port], callers: Mapping[str, str],
-    uses: Uses,
+    used: Uses,
 ) -> list[DrawnBlock]:  # fmt: skip
     """Each block after those that feed it directly; a delay gives what it got a step before.
 
@@ -194,7 +194,7 @@ def _ordered(
     for block in every:
         group = together.setdefault(callers.get(block, block), [])
         group.insert(0 if block in callers else len(group), block)
-    order_by_stores(before, {first: [every[one] for one in group] for first, group in together.items()}, uses)
+    order_by_stores(before, {first: [every[one] for one in group] for first, group in together.items()}, used)
     said = " (what a chart calls is executed with it)" if callers else ""
     return [every[name] for first in _sorted(before, said) for name in together[first]]
 

@@ -67,7 +67,7 @@ class SystemAtWork:
 
     def __init__(self, system: DrawnSystem, runner: SharedParts) -> None:
         self._runner, self._turns = runner, 0
-        wiring = wired(system, runner.stores.stores.uses)
+        wiring = wired(system, runner.stores.stores.used)
         self._nodes = [self._node(block, wiring) for block in wiring.order]
         self._by_id = {node.block.id: node for node in self._nodes}
         ends = [node for node in self._nodes if node.block.kind == "Outport"]

@@ -59,7 +59,7 @@ class WiredBlocks:
     def __init__(self, system: DrawnSystem, context: LoweringContext, path: str) -> None:
         self.context, self._path = context, path
         try:
-            self._wiring: SystemWiring = wired(system, context.stores.stores.uses)
+            self._wiring: SystemWiring = wired(system, context.stores.stores.used)
         except DrawnFault as fault:
             raise NotLowered(str(fault)) from fault
         self.nodes = [self._node(block) for block in self._wiring.order]

@@ -81,22 +81,17 @@ class ScxmlFormulas:
         raise AssertionError(expr)
 
     def _applied(self, op: Op, args: Sequence[Expr], above: int) -> str:
-        if op in _SIGNS:
-            level, sign = _SIGNS[op]
-            if op is Op.MOD and intervals(args[0])[id(args[0])].low < 0:
-                divisor = self._shown(args[1], 7)
-                return _within(
-                    above, level, f"({self._shown(args[0], 6)} % {divisor} + {divisor}) % {divisor}"
-                )
-            first, *others = args
-            compares = level in (3, 4)
-            shown = [self._shown(first, 5 if compares else level)]
-            shown += [self._shown(one, 5 if compares else level + 1) for one in others]
-            return _within(above, level, f" {sign} ".join(shown))
-        if op in _CALLS:
-            return f"{_CALLS[op]}({', '.join(self._shown(one, 0) for one in args)})"
-        level, write = _OTHERS[op]
-        return _within(above, level, write(self._shown, args))
+        level, written = OPERATIONS[op]
+        if not isinstance(written, str):
+            return _within(above, level, written(self._shown, args))
+        if op is Op.MOD and intervals(args[0])[id(args[0])].low < 0:
+            divisor = self._shown(args[1], 7)
+            return _within(above, level, f"({self._shown(args[0], 6)} % {divisor} + {divisor}) % {divisor}")
+        first, *others = args
+        compares = level in (3, 4)
+        shown = [self._shown(first, 5 if compares else level)]
+        shown += [self._shown(one, 5 if compares else level + 1) for one in others]
+        return _within(above, level, f" {written} ".join(shown))
 
     # --- active states -------------------------------------------------------------------------------------
 
@@ -131,21 +126,24 @@ def _within(above: int, level: int, shown: str) -> str:
     return f"({shown})" if above > level else shown
 
 
-_SIGNS: Mapping[Op, tuple[int, str]] = {
+def _call(name: str) -> "tuple[int, _Written]":
+    return _ATOM, lambda show, args: f"{name}({', '.join(show(one, 0) for one in args)})"
+
+
+_Show = Callable[[Expr, int], str]
+_Written = Callable[[_Show, Sequence[Expr]], str]
+OPERATIONS: Mapping[Op, tuple[int, str | _Written]] = {
     Op.OR: (1, "||"), Op.AND: (2, "&&"), Op.EQ: (3, "=="), Op.NE: (3, "!="),
     Op.LT: (4, "<"), Op.LE: (4, "<="), Op.GT: (4, ">"), Op.GE: (4, ">="),
     Op.ADD: (5, "+"), Op.SUB: (5, "-"), Op.MUL: (6, "*"), Op.SCALE: (6, "*"), Op.MOD: (6, "%"),
-}  # fmt: skip
-"""Signs between operands, and how tightly they bind."""
-_CALLS: Mapping[Op, str] = {Op.ABS: "Math.abs", Op.MIN: "Math.min", Op.MAX: "Math.max"}
-_Show = Callable[[Expr, int], str]
-_OTHERS: Mapping[Op, tuple[int, Callable[[_Show, Sequence[Expr]], str]]] = {
+    Op.ABS: _call("Math.abs"), Op.MIN: _call("Math.min"), Op.MAX: _call("Math.max"),
     Op.ITE: (0, lambda show, args: f"{show(args[0], 1)} ? {show(args[1], 1)} : {show(args[2], 0)}"),
     Op.NOT: (7, lambda show, args: f"!{show(args[0], 7)}"),
     Op.NEG: (7, lambda show, args: f"-{show(args[0], 8)}"),
     Op.DIV: (_ATOM, lambda show, args: f"Math.floor({show(args[0], 6)} / {show(args[1], 7)})"),
     Op.BIT: (3, lambda show, args: f"Math.floor({show(args[0], 6)} / {1 << _bit(args[1])}) % 2 == 1"),
-}
+}  # fmt: skip
+"""How tightly each operator binds, and the sign between its operands or how else it is written."""
 
 
 def _bit(index: Expr) -> int:
