@@ -84,6 +84,7 @@ def test_a_variant_is_named_in_the_file(capfd: pytest.CaptureFixture[str]) -> No
 WRONG = [
     (["PB1-111"], "There is no property 'PB1-111'. Did you mean"),
     (["PB1-15", "--format", "aigr"], "There is no export format 'aigr'. Did you mean 'aiger'?"),
+    (["PB1-15", "--format", "scxm"], "There is no export format 'scxm'. Did you mean 'scxml'?"),
     (["PB1-15", "--system", "relais"], "There is no system 'relais'. Did you mean 'relay'"),
     (["PB1-15", "--system", "battery"], "Nothing to export"),
     ([], "write the ids of properties, or --system NAME"),

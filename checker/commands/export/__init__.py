@@ -7,6 +7,9 @@ import click
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import VariantOptions, modelling, quietly, varying, writing
 
+CHARTS = ("slx", "scxml")
+"""The formats that charts are written in, and not properties."""
+
 
 @click.command(short_help="Write properties for other model checkers.")
 @click.argument("ids", nargs=-1, metavar="PROPERTY...")
@@ -32,7 +35,7 @@ def export(
     With --format slx, write the charts of the system that --system names as a model of Simulink; with scxml,
     as a machine in SCXML.
     """
-    if format in ("slx", "scxml"):
+    if format in CHARTS:
         from rovercheck.checker.commands.export.charts import export_charts
 
         return export_charts(ids, about, format, charts.variant(), output)

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from rovercheck.checker.commands.export import CHARTS
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, write, wrote
 from rovercheck.checker.commands.shared.property_text import formally
@@ -26,7 +27,8 @@ def export(
     Of several, those that the format cannot say are named and left out.  Raises ``UsageError`` for names
     without meaning and for a place that cannot be written, ``ModelError`` when nothing can be exported.
     """
-    exporter = pick("export format", format, exporters())
+    pick("export format", format, {**exporters(), **dict.fromkeys(CHARTS)})
+    exporter = exporters()[format]
     if not ids and not about:
         raise UsageError("Nothing names what to export; write the ids of properties, or --system NAME.")
     chosen = pick_properties(ids, about, variant.properties(), True, variant.unchanged())
