@@ -36,7 +36,6 @@ WITH_EFFECT = (
     "DataStoreWrite",
 )
 """Blocks that do more than give values, or whose values come from elsewhere."""
-FIRST_NUMBER = 2
 
 
 def free_name(expression: Expression, free: Mapping[str, str]) -> str:
@@ -142,7 +141,7 @@ def numbered(name: str, number: int) -> str:
     >>> numbered("sin", 1), numbered("sin", 2)
     ('sin', 'sin 2')
     """
-    return name if number < FIRST_NUMBER else f"{name} {number}"
+    return name if number == 1 else f"{name} {number}"
 
 
 __all__ = ["FREE_BLOCK", "arguments_of", "free_name", "free_outputs", "freed", "numbered"]

@@ -60,6 +60,8 @@ BLOCKS: Mapping[str, str] = {
     "Derivative": "continuous time. Use a discrete-time block",
 }
 """Blocks without a meaning here, and the way around them."""
+CALLS = ("FunctionCallFeedbackLatch", "FunctionCaller", "ModelReference")
+"""Those of them that do more than give values."""
 LINKS: Mapping[str, str] = {
     "known": "a link to a block of Simulink's library that is not known here. Draw what it does in its place",
     "changed": "a link to a library that is changed here. Restore it, or break it",
@@ -67,10 +69,6 @@ LINKS: Mapping[str, str] = {
     "itself": "a link to a library in which the same link is. Break it, and save the library again",
 }
 """Links that are not followed, though it is known to what they lead."""
-
-
-CALLS = ("FunctionCallFeedbackLatch", "FunctionCaller", "ModelReference")
-"""Those of them that do more than give values."""
 FREE = "`free` in the file of domains, to have any value"
 SELECTED = "Index vector (dialog)"
 """How a Selector names elements: by numbers that are written in it."""
