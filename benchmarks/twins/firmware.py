@@ -59,6 +59,10 @@ class Planted:
         deciding = {*self.parts, *(READERS[part] for part in self.parts if part in READERS)}
         return frozenset(name for name, (_, part) in writers(board).items() if part in deciding)
 
+    def is_named_in(self, part: str) -> bool:
+        """Whether what a report says of a part, or of what decides it, names one of its parts."""
+        return any(name in part for own in self.parts for name in (own, READERS.get(own, own)))
+
 
 READERS: Mapping[str, str] = {
     "updateSafetyLimits": "Motion_Supervision",

@@ -249,7 +249,7 @@ def _checked(firmware: Firmware, made: LoggedDifferences) -> Iterator[str]:
     for row in rows:
         for deviation in row.get("deviations", ()):
             deviations += 1
-            if not _planted_in(firmware, made, row["log"], deviation["outputs"]):
+            if not _planted_in(firmware, made.shown[row["log"]], deviation):
                 of_none[f"{row['log']}: {', '.join(deviation['outputs'])}"] += 1
     yield (
         f"check-log: {len(rows)} logs, {len(refused) - len(internal)} refused, {len(internal)} internal "
@@ -288,9 +288,17 @@ def _caused(
     yield from (f"  OTHER {one['cause']}" for one in others)
 
 
-def _planted_in(firmware: Firmware, made: LoggedDifferences, log: str, found: Collection[str]) -> bool:
+def _planted_in(
+    firmware: Firmware, shown: Mapping[str, frozenset[str]], deviation: Mapping[str, Any]
+) -> bool:
+    """Whether a difference shows in the outputs of an entry of a log, and is of the part that decides them.
+
+    A column that is lost leaves to the parts that it feeds what it would have shown.
+    """
+    outputs, part = set(deviation["outputs"]), f"{deviation['part']} ({deviation['decided_by']})"
     return any(
-        set(found) & one.own_outputs(firmware.board) & made.shown[log][one.id] for one in firmware.differences
+        outputs & shown[one.id] and (outputs & one.own_outputs(firmware.board) or one.is_named_in(part))
+        for one in firmware.differences
     )
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.measure import ROOT
-from benchmarks.twins.firmware import READERS, Firmware, Planted
+from benchmarks.twins.firmware import Firmware, Planted
 from rovercheck.checker.compare.beside import author_of
 from rovercheck.spec_model.abstraction import Board
 
@@ -124,8 +124,7 @@ def fits(board: Board, planted: Planted, alone: Collection[str], group: ToldGrou
     """
     found = group.outputs
     own = found <= planted.own_outputs(board)
-    named = any(name in group.part for part in planted.parts for name in (part, READERS.get(part, part)))
-    return bool(found) and found <= set(alone) and (own or named)
+    return bool(found) and found <= set(alone) and (own or planted.is_named_in(group.part))
 
 
 def names(one: Planted, change: Mapping[str, Any]) -> bool:

@@ -59,7 +59,7 @@ FAULT = Domain(Num(), (0,))
 
 def is_fault(var: Var) -> bool:
     """Whether an assignment to a variable only says that a step has no meaning."""
-    return var.domain is FAULT or (var.hidden and var.domain == FAULT and bool(var.doc))
+    return var.domain is FAULT or (var.hidden and bool(var.doc) and var.domain == FAULT)
 
 
 class ProgrammedChart(Chart):
