@@ -37,26 +37,34 @@ class InputDecoder:
 
 
 class _Taken:
-    """Stamps as a variant of the board takes them; not known after a step or cell that was not recorded."""
+    """Stamps as a variant of the board takes them, as far as they are known behind gaps."""
 
     def __init__(self, readings: Sequence[StampReading], from_power_up: bool) -> None:
         self._taken = StampsTaken(readings)
-        self._known = from_power_up
+        if not from_power_up:
+            self._gap()
 
     def block(self, block: LogBlock) -> LogBlock:
         """The rows with the stamps that are taken."""
         names = [name for name in self._taken.names if name in block.values]
-        if len(names) < len(self._taken.names) or NOW not in block.values:
-            self._known = False
         found: dict[str, Cells] = {name: [] for name in names}
-        for row, missing in enumerate(block.missing):
-            now, given = block.values[NOW][row], {name: block.values[name][row] for name in names}
-            stamps = {name: int(cell) for name, cell in given.items() if cell is not None}
-            self._known = self._known and not missing and now is not None and len(stamps) == len(names)
-            taken = self._taken.step(stamps, int(now or 0)) if self._known else {}
+        clock = block.values.get(NOW, [None] * len(block.missing))
+        for row, (missing, now) in enumerate(zip(block.missing, clock, strict=True)):
+            if missing:
+                self._gap()
+            stamps = {name: _whole(block.values[name][row]) for name in names}
+            taken = self._taken.step(stamps, _whole(now))
             for name in names:
-                found[name].append(taken.get(name))
+                found[name].append(taken[name])
         return replace(block, values={**block.values, **found})
+
+    def _gap(self) -> None:
+        """Steps that were not recorded, be it one or many."""
+        self._taken.step({}, None)
+
+
+def _whole(cell: Raw | None) -> int | None:
+    return None if cell is None else int(cell)
 
 
 class _SharedRecords:

@@ -9,6 +9,7 @@ that makes most right, and kept if with those found on top of it nothing is wron
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import partial
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
@@ -21,35 +22,30 @@ from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, with_new, wrong_of
-from rovercheck.checker.diagnosis.rivals import rivals
+from rovercheck.checker.diagnosis.rivals import rivals, with_earliest
 from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
 from rovercheck.checker.diagnosis.trial import NO_VALUE, Parameter
 from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
 from rovercheck.checker.diagnosis.witnesses import first_cases
+from rovercheck.spec_model.abstraction.readings import StampReading
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
 MOST_CAUSES = 8
 """Changes of one part that are put on top of each other."""
-
 NEAREST = 3
 """Changes that explain the same of which it is tried whether they do so on top of others."""
-
 MORE_TIME = 1.5
 """Times the time for changes, after which those found are not put on top of each other any more."""
-
 MOST_BRIDGES = 3
 """Changes that explain nothing alone on which others are put, one after the other."""
-
 MOST_PARTLY = 60
 """Such changes that are looked at, the nearest of those met."""
-
 GAIN = 4
 """Times as much as it makes wrong that such a change makes right."""
-
 ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
 """Kinds of which some change makes right almost whatever is wrong."""
 
@@ -102,8 +98,7 @@ class _CoverSearch(HypothesisSearch):
         self._system = self._evidence.group.system
         drawn = list(self._base)
         sound = self._now
-        others: list[CoveringChange] = []
-        instead: list[CoveringChange] = []
+        others, instead = list[CoveringChange](), list[CoveringChange]()
         while len(self._cover.changes) < MOST_CAUSES:
             more = self._level()
             at_sound = len(self._cover.changes) == sound.changes
@@ -205,6 +200,12 @@ class _CoverSearch(HypothesisSearch):
             if not any(self._again(one) for one in nearest if self._clock() < self._end):
                 return
 
+    def _explained(self, one: CoveringChange, reading: StampReading) -> frozenset[int]:
+        """What a change explains of all that it does, with a stamp taken otherwise."""
+        cone = self._cone(one.system)
+        wrong = None if cone is None else self._right(cone, None, one.explains, reading)
+        return frozenset() if wrong is None else self._judge.explained(one.explains, self._bench, wrong)
+
     def _combined(self) -> bool:
         """Take several readings of stamps that only together explain something, and make nothing wrong."""
         cone = self._cone(self._system)
@@ -235,9 +236,7 @@ class _CoverSearch(HypothesisSearch):
             return False
         cone = self._cone(system)
         concerned = self._concerned(change)
-        bench, self._bench = self._bench, self._bench.with_reading(change.reading)
-        wrong = None if cone is None else self._right(cone, None, concerned)
-        self._bench = bench
+        wrong = None if cone is None else self._right(cone, None, concerned, change.reading)
         if wrong is None:
             return False
         explains = self._judge.explained(concerned, self._bench, wrong)
@@ -246,6 +245,7 @@ class _CoverSearch(HypothesisSearch):
         return bool(explains)
 
     def _accept(self, one: CoveringChange) -> None:
+        one = with_earliest(one, partial(self._explained, one))
         self._cover.changes.append((one.change, one.explains & self._left))
         self._left -= one.explains
         self._base, self._system = list(one.wrong), one.system
@@ -343,10 +343,12 @@ class _CoverSearch(HypothesisSearch):
         return True
 
     def _right(
-        self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int]
-    ) -> list[Wrong] | None:
+        self, cone: LogCone, parameter: Parameter | None, concerned: frozenset[int],
+        reading: StampReading | None = None,
+    ) -> list[Wrong] | None:  # fmt: skip
+        bench = self._bench.with_reading(reading)
         try:
-            return self._judge.all_right(self._bench, self._base, cone, parameter, concerned)
+            return self._judge.all_right(bench, self._base, cone, parameter, concerned)
         except NO_VALUE:
             return None
 

@@ -5,8 +5,8 @@ in one place where two are exchanged.  Where a part is followed together with th
 changes of all of these is told, though one is known from recordings that show it alone.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 
 from rovercheck.checker.conformance.deviations import Deviation
@@ -28,7 +28,10 @@ FollowedPart = tuple[PartEvidence, SearchedPart]
 def explained_elsewhere(
     board: Board, every: Sequence[FollowedPart], deviations: Sequence[Deviation], seconds: float, at_once: int
 ) -> list[SearchedPart]:
-    """The parts, each with changes of those that deviate more often, where these explain as much, or more."""
+    """The parts, each with changes of others: of those that deviate more often, where these explain as much.
+
+    Of those that deviate less often where something is left, and more is explained with them.
+    """
     found = [part for _, part in every]
     offered = {n: own for n in range(len(every)) if (own := _offered(board, every, n, deviations))}
     works = [
@@ -38,7 +41,7 @@ def explained_elsewhere(
             deviations,
             _places(found, n, deviations),
             seconds,
-            [*own.values(), *(change for change in found[n].changes if change.key not in own)],
+            own.with_own(found[n].changes),
         )
         for n, own in offered.items()
     ]
@@ -50,25 +53,44 @@ def explained_elsewhere(
     return found
 
 
-Offered = Mapping[tuple[str, ...], ChartChange]
-"""Changes by their keys."""
+@dataclass(frozen=True)
+class OfferedChanges:
+    """Changes of parts that deviate more often, and of those that deviate less often."""
+
+    often: tuple[ChartChange, ...]
+    seldom: tuple[ChartChange, ...]
+
+    def with_own(self, changes: Iterable[ChartChange]) -> list[ChartChange]:
+        """All to be tried of a part in which these were found, each once."""
+        found: dict[tuple[str, ...], ChartChange] = {}
+        for change in (*self.often, *changes, *self.seldom):
+            found.setdefault(change.key, change)
+        return list(found.values())
 
 
 def _offered(
     board: Board, every: Sequence[FollowedPart], place: int, deviations: Sequence[Deviation]
-) -> Offered:
-    """Changes of parts that deviate more often, where another one was found here, or something is left.
+) -> OfferedChanges | None:
+    """Changes of other parts, where another one was found here, or something is left.
 
-    They come before those that were met here alone.
+    Those of parts that deviate more often come before those that were met here alone.
     """
     evidence, part = every[place]
-    others = [other for _, other in every if other is not part and other.cases > part.cases]
-    found = [change for other in sorted(others, key=lambda one: -one.cases) for change in other.changes]
-    changes = {c.key: replace(c, tier=KNOWN) for c in _of_charts(board, evidence, found)}
+    others = sorted((one for _, one in every if one is not part), key=lambda one: -one.cases)
+
+    def of(some: Iterable[SearchedPart]) -> dict[tuple[str, ...], ChartChange]:
+        return {c.key: c for c in _of_charts(board, evidence, (c for one in some for c in one.changes))}
+
+    often = of(one for one in others if one.cases > part.cases)
     mine = {change.key for change in part.changes}
     left = len(_places([one for _, one in every], place, deviations)) > len(part.explained)
-    wanted = not mine <= changes.keys() or (left and not changes.keys() <= mine)
-    return changes if wanted else {}
+    seldom = of(one for one in others if one.cases <= part.cases) if left else {}
+    others_known = often.keys() | seldom.keys()
+    if not others_known or (mine <= often.keys() and not (left and not others_known <= mine)):
+        return None
+    return OfferedChanges(
+        tuple(replace(change, tier=KNOWN) for change in often.values()), tuple(seldom.values())
+    )
 
 
 def _of_charts(board: Board, evidence: PartEvidence, found: Iterable[ChartChange]) -> Iterator[ChartChange]:
@@ -91,11 +113,12 @@ def _places(every: Sequence[SearchedPart], place: int, deviations: Sequence[Devi
     return [n for n, d in enumerate(deviations) if d.scope.part == part.part and n not in explained]
 
 
-def _better(made: SearchedPart, before: SearchedPart, offered: Offered) -> bool:
+def _better(made: SearchedPart, before: SearchedPart, offered: OfferedChanges) -> bool:
     """Whether more is explained, or as much with fewer changes that are met here alone."""
     if not set(made.explained) >= set(before.explained):
         return False
-    alone, was = (sum(c.key not in offered for c in part.changes) for part in (made, before))
+    often = {change.key for change in offered.often}
+    alone, was = (sum(c.key not in often for c in part.changes) for part in (made, before))
     return len(made.explained) > len(before.explained) or alone < was
 
 

@@ -1,9 +1,12 @@
 """Other changes that explain exactly as much as the nearest one: nothing recorded tells them apart."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from itertools import takewhile
 
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.cover import CoveringChange
+from rovercheck.spec_model.abstraction.readings import StampReading
 
 MOST_RIVALS = 2
 """Changes that are told beside the nearest one."""
@@ -22,10 +25,19 @@ def rivals(good: Sequence[CoveringChange]) -> tuple[ChartChange, ...]:
     return tuple(found.values())[1 : MOST_RIVALS + 1]
 
 
+def with_earliest(one: CoveringChange, explained: Callable[[StampReading], frozenset[int]]) -> CoveringChange:
+    """Of a stamp that is new in every step from an update on: with the earliest that explains the same."""
+    earlier = one.change.reading.earlier if one.explains and one.change.reading is not None else ()
+    same = list(takewhile(lambda reading: explained(reading) == one.explains, earlier))
+    if not same:
+        return one
+    return replace(one, change=replace(one.change, note=f"{same[-1].how} explains the same"))
+
+
 def _place(change: ChartChange) -> tuple[str, ...]:
     """A place, and what is read otherwise in it."""
     at = change.at.removesuffix("/compared")  # of ages, also where they are compared alone
     return (change.chart, at, change.new if change.kind == "interpretation" else change.old)
 
 
-__all__ = ["rivals"]
+__all__ = ["rivals", "with_earliest"]

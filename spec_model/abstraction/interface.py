@@ -229,7 +229,8 @@ class InterfaceReader:
         """Raw inputs of the charts.  Raises ``ModelError`` for a value that the charts give no meaning to."""
         now, by = int(inputs[NOW]), self._interface.by_carriage
         if names := self._taken.names:
-            inputs = {**inputs, **self._taken.step({name: int(inputs[name]) for name in names}, now)}
+            taken = self._taken.step({name: int(inputs[name]) for name in names}, now)
+            inputs = {**inputs, **{name: stamp for name, stamp in taken.items() if stamp is not None}}
         at = {v.var.name: v.signal.raw(inputs[v.signal.name]) for v in by[Carriage.SAMPLE]}
         for v in by[Carriage.AGE]:
             at[v.var.name] = v.age(now, int(inputs[v.signal.name]))

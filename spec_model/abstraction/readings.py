@@ -16,8 +16,11 @@ from typing import cast
 from rovercheck.spec_model.abstraction.stamps import CLOCK, since
 from rovercheck.spec_model.lang.system import TICK_MS
 
-Take = Callable[[int, int], int]
-"""The stamp that is taken, of the one given and the time of the step; called once in every step."""
+Take = Callable[[int | None, int | None], int | None]
+"""The stamp that is taken, of the one given and the time of the step; called once in every step.
+
+``None`` is what is not known, as where a log has a gap.
+"""
 
 TOGETHER: Mapping[str, int] = {
     "into one record with ": 0, "into one record, added up in 32 bits, with ": 32
@@ -59,6 +62,13 @@ class StampReading:
         """In how many bits the intervals of two stamps are added up; 0: in as many as needed."""
         return next((bits for way, bits in TOGETHER.items() if self.how.startswith(way)), 0)
 
+    @property
+    def earlier(self) -> tuple["StampReading", ...]:
+        """Of a stamp that is new in every step from an update on: the same from earlier ones on, in turn."""
+        hows = [_new_from(number) for number in UPDATES]
+        later = hows[hows.index(self.how) + 1 :] if self.how in hows else []
+        return tuple(StampReading(self.stamp, how) for how in later)
+
     def start(self) -> Take:
         """Takes the stamp step by step from power-up."""
         return READINGS[self.how][1]()
@@ -75,11 +85,11 @@ class StampsTaken:
         """The stamps that are taken otherwise."""
         return list(dict.fromkeys(name for name, _ in self._takes))
 
-    def step(self, stamps: Mapping[str, int], now_ms: int) -> dict[str, int]:
-        """Those that are taken otherwise."""
-        found: dict[str, int] = {}
+    def step(self, stamps: Mapping[str, int | None], now_ms: int | None) -> dict[str, int | None]:
+        """Those that are taken otherwise, known where all is that they are made of."""
+        found: dict[str, int | None] = {}
         for name, take in self._takes:
-            found[name] = take(found.get(name, stamps[name]), now_ms)
+            found[name] = take(found[name] if name in found else stamps.get(name), now_ms)
         return found
 
 
@@ -96,57 +106,81 @@ def readings_of(stamp: str, recorded: Sequence[str] = ()) -> Iterator[StampReadi
 
 
 def _bits(number: int) -> Take:
-    return lambda stamp, _: stamp % (1 << number)
+    return lambda stamp, _: None if stamp is None else stamp % (1 << number)
 
 
 def _age_bits(number: int) -> Take:
-    return lambda stamp, now: (now - since(now, stamp) % (1 << number)) % CLOCK
+    def take(stamp: int | None, now: int | None) -> int | None:
+        if stamp is None or now is None:
+            return None
+        return (now - since(now, stamp) % (1 << number)) % CLOCK
+
+    return take
 
 
 class _Late:
     def __init__(self) -> None:
-        self._before = 0
+        self._before: int | None = 0
 
-    def __call__(self, stamp: int, _now: int) -> int:
+    def __call__(self, stamp: int | None, _now: int | None) -> int | None:
         before, self._before = self._before, stamp
         return before
 
 
 class _EveryOther:
-    """Takes new stamps whose number, from 1, is even or odd."""
+    """Takes new stamps whose number, from 1, is even or odd; after a gap nobody knows their numbers."""
 
     def __init__(self, rest: int) -> None:
         self._rest, self._number = rest, 0
-        self._given = self._taken = 0
+        self._given: int | None = 0
+        self._taken: int | None = 0
 
-    def __call__(self, stamp: int, _now: int) -> int:
-        if stamp != self._given:
+    def __call__(self, stamp: int | None, _now: int | None) -> int | None:
+        if stamp is None or self._given is None:
+            self._given = self._taken = None
+        elif stamp != self._given:
             self._number += 1
             if self._number % 2 == self._rest:
                 self._taken = stamp
-        self._given = stamp
+            self._given = stamp
         return self._taken
 
 
 class _NewFrom:
-    """From an update on, every step finds a new stamp: as where a counter no longer equals its copy."""
+    """From an update on, every step finds a new stamp: as where a counter no longer equals its copy.
+
+    Behind a gap at least those updates have come that were seen.
+    """
 
     def __init__(self, first: int) -> None:
-        self._first, self._number, self._given = first, 0, 0
+        self._first, self._number, self._certain = first, 0, True
+        self._given: int | None = 0
 
-    def __call__(self, stamp: int, now: int) -> int:
-        self._number += stamp != self._given
+    def __call__(self, stamp: int | None, now: int | None) -> int | None:
+        self._number += None not in (stamp, self._given) and stamp != self._given
+        self._certain &= stamp is not None
         self._given = stamp
-        return now if self._number >= self._first else stamp
+        if self._number >= self._first:
+            return now
+        return stamp if self._certain else None
+
+
+UPDATES = (256, 128, 64, 32, 16, 8, 4, 2, 1)
+"""After so many a counter that is cut off may no longer equal its copy; the later, the fewer steps differ."""
+
+
+def _new_from(update: int) -> str:
+    return f"new in every step from update {update} on"
 
 
 class _First:
     def __init__(self) -> None:
         self._taken: int | None = None
+        self._began = False
 
-    def __call__(self, stamp: int, _now: int) -> int:
-        if self._taken is None:
-            self._taken = stamp
+    def __call__(self, stamp: int | None, _now: int | None) -> int | None:
+        if not self._began:
+            self._taken, self._began = stamp, True
         return self._taken
 
 
@@ -162,10 +196,8 @@ READINGS: Mapping[str, tuple[str, Callable[[], Take]]] = {
         "only every other update of {} were seen, the first one too", partial(_EveryOther, 1)
     ),
     **{
-        f"new in every step from update {n} on": (
-            f"{{}} were new in every step from its update {n} on", partial(_NewFrom, n)
-        )
-        for n in (256, 128, 64, 32, 16, 8, 4, 2, 1)  # the later, the fewer steps are otherwise
+        _new_from(n): (f"{{}} were new in every step from its update {n} on", partial(_NewFrom, n))
+        for n in UPDATES
     },
     "of the first step": ("{} were read in the first step only", _First),
     "never": ("{} were not read: always 0", lambda: lambda _stamp, _now: 0),

@@ -33,8 +33,11 @@ TOGETHER = "into one record with "
 WRAPPING = "into one record, added up in 32 bits, with "
 
 
-def links(seed: int, steps: int, since_ms: int = 0) -> list[Row]:
-    """Heartbeats and frames of Board 2 that come in time, late, or not at all for a while."""
+def links(seed: int, steps: int, since_ms: int = 0, calm: range = range(0)) -> list[Row]:
+    """Heartbeats and frames of Board 2 that come in time, late, or not at all for a while.
+
+    In the ``calm`` steps all are in time.
+    """
     random, stamps = Random(seed), [s.name for s in BOARD1.inputs if s.stamp]
     at: Row = {**BOARD1.at_power_up(), **CALM["board1"]}
     due = {HEARTBEAT: 0, FRAME: 0}
@@ -50,6 +53,7 @@ def links(seed: int, steps: int, since_ms: int = 0) -> list[Row]:
                 due[name] = random.choice((1, 1, 2, 3) if slow else (1, 1, 1, 2))
                 if random.random() < 0.03:
                     due[name] = random.choice((4, 5, 6, 7, 8, 60))
+                due[name] = 1 if step in calm else due[name]
         found.append(dict(at))
     return found
 
@@ -83,6 +87,23 @@ def test_a_stamp_that_is_taken_otherwise_is_told_as_such(how: str) -> None:
     [found] = {c.change.reading for c in causes if c.change is not None}
     assert found == planted
     assert all(c.change is not None for c in causes)
+
+
+@pytest.mark.parametrize(
+    ("planted", "calm", "note"),
+    [(64, range(0), ""), (128, range(100, 260), "update 64 on explains the same")],
+)
+def test_from_which_update_a_stamp_is_new_in_every_step_is_told_as_far_as_runs_show_it(
+    planted: int, calm: range, note: str
+) -> None:
+    """While every step has an update nobody sees whether it is taken for one: 64 was told in place of 8."""
+
+    reading = StampReading(HEARTBEAT, f"new in every step from update {planted} on")
+    board = with_readings(BOARD1, [reading])
+    runs = [recorded_on(board, links(seed, 500, 0, calm), f"run {seed}") for seed in (1, 2, 3)]
+    [one] = {c.change for c in grouped(runs).causes if c.part == "Monitor_heartbeat"}
+    assert one is not None and one.reading == reading
+    assert one.note.endswith(note) and bool(one.note) is bool(note)
 
 
 def test_several_stamps_that_only_together_explain_anything_are_found_together() -> None:
@@ -176,6 +197,18 @@ def test_what_was_not_recorded_is_not_known_afterwards() -> None:
     block = LogBlock([1, 2, 3], [1, 2, 4], [0, 0, 1], values)
     decoder = InputDecoder(Vocabulary(variant), frozenset(values), True)
     assert decoder.decode(block)["heartbeat_age"] == [1, 1, None]
+
+
+@pytest.mark.parametrize(("update", "ages"), [(2, [0, 0, 0, 0]), (4, [0, 0, None, None])])
+def test_behind_a_cell_that_is_not_known_the_updates_before_it_have_still_come(
+    update: int, ages: list[int | None]
+) -> None:
+    """One such stamp left a whole log open, and so all that showed in it without a cause."""
+    variant = with_readings(BOARD1, [StampReading(HEARTBEAT, f"new in every step from update {update} on")])
+    values: dict[str, list[Raw | None]] = {NOW: [20, 40, 60, 80], HEARTBEAT: [20, 40, None, 40]}
+    block = LogBlock([1, 2, 3, 4], [1, 2, 3, 4], [0, 0, 0, 0], values)
+    decoder = InputDecoder(Vocabulary(variant), frozenset(values), True)
+    assert decoder.decode(block)["heartbeat_age"] == ages
 
 
 def test_every_way_to_take_a_stamp_is_told_and_does_something() -> None:

@@ -23,7 +23,8 @@ def says(cause: DeviationCause) -> str:
 def untold(cause: DeviationCause, recordings: str) -> str:
     """What explains a cause's deviations as well; empty where nothing that was tried does."""
     others = " or ".join(map(behaves_like, cause.rivals))
-    return f"{others}: nothing in these {recordings} tells it apart" if others else ""
+    apart = f"{others}: nothing in these {recordings} tells it apart" if others else ""
+    return "; ".join(filter(None, (cause.change.note if cause.change else "", apart)))
 
 
 def also(other: Deviation, one: DeviationCause, recordings: tuple[str, str]) -> str:
