@@ -90,7 +90,7 @@ class NumberSlot:
     def _between(self, gap: Gap | None) -> str:
         if gap is None or gap[0] == gap[1]:
             return ""
-        low, high = (number_text(end * self.sort.resolution) for end in gap)
+        low, high = (f"{float(end * self.sort.resolution):.6g}" for end in gap)
         return f"any limit between {low} and {high} explains the same"
 
     def _named(self, op: Op | None, value: Fraction) -> str:

@@ -10,10 +10,13 @@ from rovercheck.checker.diagnosis.cause_cover import covered
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, only_told
 from rovercheck.checker.diagnosis.cover import PartCover
 from rovercheck.checker.diagnosis.evidence import PartEvidence
+from rovercheck.checker.diagnosis.hypotheses import rewrite_changes, signals_of
 from rovercheck.checker.diagnosis.one_change import likeness
 from rovercheck.checker.diagnosis.other_inputs import explained_by_inputs, stamps
 from rovercheck.checker.diagnosis.variant import WrittenChange, found_change
+from rovercheck.spec_model.lang.chart import parts as all_parts
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
 
 REPAIRS: tuple[ChangeKind, ...] = ("repair",)
 
@@ -114,8 +117,38 @@ def searched(
     for part in by_cases(evidence):
         told = {n for one in found for _, own in one.causes for n in own}
         places = [n for n, d in enumerate(deviations) if d.scope.part == part.name and n not in told]
-        found.append(searched_part(part, deviations, places, seconds))
+        one = searched_part(part, deviations, places, seconds)
+        found.append(_where_recorded(part, deviations, places, seconds, one))
     return found
+
+
+def _where_recorded(
+    part: PartEvidence, every: Sequence[Deviation], places: Sequence[int], seconds: float, found: SearchedPart
+) -> SearchedPart:
+    """With what the part may read by mistake that some runs do not record: the others show it.
+
+    Only where something is left without a cause.
+    """
+    system = part.group.system
+    charts = frozenset(one.name for one in all_parts(system.components))
+    for name, signal in _recorded_in_some(part).items():
+        if len(found.explained) == len(places):
+            break
+        reads = [c for c in rewrite_changes(system, {name: signal}, charts) if c.new == name]
+        runs = [run for run in part.runs if name in run.columns]
+        if reads and any(run.wrong.get(part.name) for run in runs):
+            tried = [*found.changes, *reads]
+            made = searched_part(replace(part, runs=runs), every, places, seconds, tried)
+            if len(made.explained) > len(found.explained):
+                found = replace(made, cut=found.cut, cases=part.cases)
+    return found
+
+
+def _recorded_in_some(part: PartEvidence) -> dict[str, Var]:
+    """Signals that some runs record, and not all."""
+    columns = [set(run.columns) for run in part.runs]
+    some = set[str]().union(*columns) - set.intersection(*columns)
+    return {name: var for name, var in signals_of(part.group.board).items() if name in some}
 
 
 def by_cases(evidence: Iterable[PartEvidence]) -> list[PartEvidence]:

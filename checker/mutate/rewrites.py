@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
+from operator import is_
 
 from rovercheck.checker.mutate.charts import transition_lists
 from rovercheck.checker.mutate.formulas import TIMED
@@ -16,7 +17,7 @@ from rovercheck.checker.mutate.places import FormulaPlace, formula_places, nodes
 from rovercheck.spec_model.lang.chart import Block, Chart, Path
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.edit import everywhere, in_block, in_expressions
-from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Temporal, Var
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var
 from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.transition import to
@@ -240,18 +241,20 @@ def _other(swap: Mapping[int, Const], node: Expr) -> Expr:
 
 
 def renamed(part: Chart | Block, swap: Mapping[str, Var]) -> Chart | Block:
-    """The part with other variables read in place of some."""
+    """The part with other variables read in place of some; a formula in which any is loses its name."""
 
     def change(expr: Expr) -> Expr:
         match expr:
             case Var(name):
                 return swap.get(name, expr)
             case Apply(op, args, sort):
-                return Apply(op, tuple(map(change, args)), sort)
+                new = tuple(map(change, args))
+                return expr if all(map(is_, new, args)) else Apply(op, new, sort)
             case Temporal(_, arg, _, _) if arg is not None:
-                return replace(expr, arg=change(arg))
-        body = getattr(expr, "body", None)
-        return expr if body is None else change(body)
+                return expr if (now := change(arg)) is arg else replace(expr, arg=now)
+            case Named(_, body):
+                return expr if (inner := change(body)) is body else inner
+        return expr
 
     return in_block(part, change) if isinstance(part, Block) else in_expressions(part, change)
 

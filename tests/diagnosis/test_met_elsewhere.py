@@ -56,6 +56,17 @@ def test_a_log_without_a_column_has_the_cause_that_other_logs_show() -> None:
     assert set(cause.parts) == parts
 
 
+def test_what_is_read_by_mistake_is_told_though_a_log_does_not_record_it() -> None:
+    """One log without the column, and in 28 logs the cause was told of no case but the first step of one."""
+    long = [(n, change) for change in ({}, {FL: True}, {FL: False}, {FR: True}) for n in (9, 40)]
+    evidence = followed(BOARD1, [run("whole", long), run("lost", [(9, {}), (20, {FL: True}), (9, {})], FL)])
+    [part] = [one for one in evidence.parts if one.name == "Monitor_wheel_FR"]
+    assert len(part.deviating) == 2
+    groups = cause_groups(evidence, deviations(evidence), [part.name], 20, at_once=1)
+    [cause] = [one for one in groups.causes if one.part == part.name]
+    assert cause.change is not None and (cause.change.old, cause.change.new) == (FR, FL)
+
+
 STAMP = "stamp/last_valid_b2_ms"
 
 
