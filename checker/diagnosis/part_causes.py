@@ -146,8 +146,8 @@ def _where_recorded(
 
 def _recorded_in_some(part: PartEvidence) -> dict[str, Var]:
     """Signals that some runs record, and not all."""
-    columns = [set(run.columns) for run in part.runs]
-    some = set[str]().union(*columns) - set.intersection(*columns)
+    columns = [frozenset(run.columns) for run in part.runs]
+    some = frozenset[str]().union(*columns) - frozenset.intersection(*columns)
     return {name: var for name, var in signals_of(part.group.board).items() if name in some}
 
 
