@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import isfinite
 from typing import cast
 
@@ -63,7 +64,7 @@ class BoardSignal:
             case Num(resolution, _):
                 if not self.low <= value <= self.high:
                     raise ModelError(f"{self.name} = {value} is outside {self.low:g}..{self.high:g}.")
-                return whole(exact(value) / resolution)
+                return _raw(value, resolution)
 
     def show(self, value: Value) -> str:
         """The value as a person writes it: a member's name, ``true``, a number."""
@@ -82,6 +83,17 @@ def whole(value: Fraction) -> Raw:
     return value.numerator if value.denominator == 1 else value
 
 
+@lru_cache(100_000)
+def _raw(value: Value, resolution: Fraction) -> Raw:
+    return whole(exact(value) / resolution)
+
+
+@lru_cache(100_000)
+def _number(raw: Raw, resolution: Fraction) -> Value:
+    value = raw * resolution
+    return int(value) if value.denominator == 1 else float(value)
+
+
 def units(domain: Domain, raw: Raw) -> Value:
     """The concrete value of a raw one."""
     match domain.sort:
@@ -90,8 +102,7 @@ def units(domain: Domain, raw: Raw) -> Value:
         case Enum():
             return int(raw)
         case Num(resolution, _):
-            value = raw * resolution
-            return int(value) if value.denominator == 1 else float(value)
+            return _number(raw, resolution)
 
 
 @dataclass(frozen=True)
