@@ -20,8 +20,11 @@ from rovercheck.checker.conformance.recording import Raw
 MOST_LOST = 20
 """How often the states may become too many before the part is given up."""
 
-MOST_MISSING, FEW_RUNS = 5, 500
-"""Steps missing in a row through which states are followed, and how many may be tried for it."""
+MOST_MISSING, FEW_RUNS, GUESSED_RUNS = 5, 1000, 500
+"""Steps missing in a row through which states are followed, and how many may be tried for it.
+
+Fewer where not all values can be tried: then any state says more, as what it does not explain is decided.
+"""
 
 MOST_OPTIONS = 16
 
@@ -52,14 +55,22 @@ class Tracker:
     After a tick that none explains, the charts go on from where they are; if they do not explain the next
     one either, from any state that has the logged outputs.
 
-    ``tells_inputs``: whether a mismatch says what was read.
+    ``tells_inputs``: whether a mismatch says what was read.  ``always``: an input and its value in all steps,
+    also in those that were not logged.
     """
 
     def __init__(
-        self, cone: LogCone, tolerance: Mapping[str, float], from_power_up: bool, tells_inputs: bool = True
+        self,
+        cone: LogCone,
+        tolerance: Mapping[str, float],
+        from_power_up: bool,
+        tells_inputs: bool = True,
+        always: tuple[str, Raw] | None = None,
     ) -> None:
         self.cone = cone
         self._tells_inputs = tells_inputs
+        name, value = always or ("", None)
+        self._not_logged: Known = tuple(value if v.name == name else None for v in cone.system.inputs)
         self.undecided: UndecidedRow | None = None
         self.given_up = False
         self._follow = StateEstimator(cone, tolerance)
@@ -267,13 +278,15 @@ class Tracker:
         if missing > MOST_MISSING or not self.cone.system.variables:
             self._now = self._follow.anything({})
             return
-        nothing: Known = (None,) * len(self.cone.system.inputs)
         left, self._follow.runs_left = self._follow.runs_left, FEW_RUNS
+        before = set(self._follow.incomplete)
         try:
             for _ in range(missing):
-                self._now = self._follow.kept(self._follow.outcomes(self._now, nothing))
+                self._now = self._follow.kept(self._follow.outcomes(self._now, self._not_logged))
         except TooMany:
             self._now = self._follow.anything({})
+        if self._follow.incomplete > before and FEW_RUNS - self._follow.runs_left > GUESSED_RUNS:
+            self._now, self._follow.incomplete = self._follow.anything({}), before
         self._follow.runs_left = left
 
     def _lose(self, row: TrackedRow, what: str) -> None:

@@ -85,10 +85,9 @@ class _CoverSearch(HypothesisSearch):
         self._base: list[Wrong] = []
         self._left: frozenset[int] = frozenset()
         self._witnesses: list[Witness] = []
-        self._first = frozenset[int]()
+        self._first = self._decided = frozenset[int]()
         self._settled = self._settled_before = frozenset[int]()
-        self._passed_by_good = 0
-        self._at_power_up = False
+        self._passed_by_good, self._at_power_up = 0, False
         self._influence = ChangeInfluence(found.evidence.group.system, found.evidence.cone.outputs)
 
     def run(self) -> None:
@@ -144,6 +143,7 @@ class _CoverSearch(HypothesisSearch):
         """Try every change on top of those taken; whether there is anything left to explain."""
         self._good, self._partly, self._settled, self._passed_by_good = [], [], frozenset(), 0
         cone = self._evidence.group.cone(self._system)
+        self._decided = self._judge.decided(self._left, self._bench)
         self._witnesses = first_cases(self._bench, cone, self._base, self._rows, self._left)
         self._first = frozenset(w.place for w in self._witnesses if not w.before)
         self._at_power_up = any(w.last == 0 for w in self._witnesses)
@@ -162,9 +162,10 @@ class _CoverSearch(HypothesisSearch):
         return bool(self._good) or self._combined()
 
     def _behind(self, one: CoveringChange) -> int:
-        """How many rows a change explains behind those that are decided."""
+        """How many rows a change explains behind those that are decided, in runs in which it explains one."""
         cone = self._cone(one.system) if self._clock() < self._end else None
-        return 0 if cone is None else self._bench.with_reading(one.change.reading).rows_behind(cone)
+        own = [n for n, old in enumerate(self._base) if len(one.wrong[n]) < len(old)]
+        return 0 if cone is None else self._bench.with_reading(one.change.reading).rows_behind(cone, own)
 
     def _begin(self, bridge: CoveringChange) -> None:
         """Take a change that makes something wrong, which belongs to deviations of the same outputs now."""
@@ -245,18 +246,17 @@ class _CoverSearch(HypothesisSearch):
         return bool(explains)
 
     def _accept(self, one: CoveringChange) -> None:
+        """Take a change, and the rows of which nobody could know without it what is right."""
         one = with_earliest(one, partial(self._explained, one))
-        self._cover.changes.append((one.change, one.explains & self._left))
-        self._left -= one.explains
         self._base, self._system = list(one.wrong), one.system
-        self._bench = self._bench.with_reading(one.change.reading)
-        self._go_on()
-
-    def _go_on(self) -> None:
-        """Take in the rows in which nobody could know what is right without the change taken last."""
-        self._bench, found = self._bench.going_on(self._evidence.group.cone(self._system))
+        bench = self._bench.with_reading(one.change.reading)
+        self._bench, found = bench.going_on(self._evidence.group.cone(self._system))
         for number, wrong in found.items():
             self._base[number] = wrong
+        explains = (one.explains & self._left) | self._judge.explained(self._left, self._bench, self._base)
+        self._cover.changes.append((one.change, explains))
+        self._left -= explains
+        self._decided = self._judge.decided(self._left, self._bench)
 
     def order(self, change: ChartChange) -> Nearness:
         """Initial values first, where something differs in the first step of a run."""
@@ -267,9 +267,9 @@ class _CoverSearch(HypothesisSearch):
         return bool(self._concerned(change))
 
     def _concerned(self, change: ChartChange) -> frozenset[int]:
-        """The deviations that are left of outputs that a change may make otherwise."""
+        """The deviations left, in rows that count, of outputs that a change may make otherwise."""
         outputs = self._influence.outputs(change)
-        left = self._left - self._settled
+        left = self._decided - self._settled
         return frozenset(n for n in left if outputs.issuperset(self._cover.deviations[n].scope.outputs))
 
     @property

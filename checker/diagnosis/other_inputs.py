@@ -21,7 +21,9 @@ def explained_by_inputs(cover: PartCover) -> list[tuple[str, frozenset[int]]]:
 
     Each is under one input, that which explains most.
     """
-    part, left = cover.evidence, {n: cover.rows[n] for n in cover.left}
+    part = cover.evidence
+    bench = cover.bench or TrialBench(part)
+    left = {n: cover.rows[n] for n in cover.left if bench.decides(cover.rows[n])}
     try:
         cone = part.cone if cover.system is None else part.group.cone(cover.system)
     except (ModelError, StopIteration):
@@ -32,9 +34,7 @@ def explained_by_inputs(cover: PartCover) -> list[tuple[str, frozenset[int]]]:
     for name in names:
         outputs = influence.of_data(name)
         own = {n: rows for n, rows in left.items() if outputs.issuperset(cover.deviations[n].scope.outputs)}
-        every.append(
-            (name, frozenset(_explained(cover.bench or TrialBench(part), cone, name, own, cover.base)))
-        )
+        every.append((name, frozenset(_explained(bench, cone, name, own, cover.base))))
     found: list[tuple[str, frozenset[int]]] = []
     told = frozenset[int]()
     for name, places in sorted(every, key=lambda one: -len(one[1])):
@@ -58,7 +58,7 @@ def _computed(part: PartEvidence, cone: LogCone) -> list[str]:
 def _explained(
     bench: TrialBench, cone: LogCone, name: str, left: Mapping[int, Pieces], base: Sequence[Wrong]
 ) -> Iterator[int]:
-    numbers = {id(run): number for number, run in enumerate(bench.runs)}
+    numbers = bench.numbers
     concerned = {numbers[run] for pieces in left.values() for run, _ in pieces}
     wrong: dict[int, Wrong | None] = {}
     for number in concerned:

@@ -1,6 +1,6 @@
 """What is wrong with a changed part, run by run, and which deviations are explained by it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.diagnosis.pieces import NOT_DECIDED, Pieces, Wrong, differing
@@ -57,7 +57,8 @@ class RowJudge:
     ) -> list[Wrong] | None:
         """What is wrong with a changed part in each run.
 
-        ``None`` if something is that was right before, or if none of those concerned is explained.
+        ``None`` if something is that was right before, or if none of those concerned is explained.  A number
+        that is left open is not known in steps that were not recorded: with it more may be open.
         """
         found: list[Wrong] = [{} for _ in base]
         left, left_open = concerned, 0
@@ -66,7 +67,8 @@ class RowJudge:
             if not before:
                 holds = bench.holds(cone, number, parameter)
                 left_open += holds is None
-                wrong = holds is False or left_open > _conforming(base) // OPEN
+                too_many = parameter is None and left_open > _conforming(base) // OPEN
+                wrong = holds is False or too_many
             else:
                 rows = _within(bench, cone, number, parameter, before)
                 wrong = rows is None
@@ -79,18 +81,22 @@ class RowJudge:
         return found
 
     def explained(self, places: frozenset[int], bench: TrialBench, wrong: Sequence[Wrong]) -> frozenset[int]:
-        """The deviations of which all rows are right, as far as they are their own."""
+        """The deviations of which all rows that count are right, as far as they are their own."""
         return frozenset(
             place
-            for place in places
+            for place in self.decided(places, bench)
             if not any(self._is_wrong(place, bench, number, rows) for number, rows in enumerate(wrong))
         )
 
+    def decided(self, places: Iterable[int], bench: TrialBench) -> frozenset[int]:
+        """The deviations of which some row counts."""
+        return frozenset(place for place in places if bench.decides(self._rows[place]))
+
     def _is_wrong(self, place: int, bench: TrialBench, number: int, wrong: Wrong) -> bool:
-        """Whether some row of a deviation is wrong in a run, as far as it is its own."""
-        run = id(bench.runs[number])
+        """Whether some row of a deviation that counts is wrong in a run, as far as it is its own."""
+        run, end = id(bench.runs[number]), bench.end(number)
         own = self._rows[place]
-        return any(pieces & own.get((run, row), frozenset()) for row, pieces in wrong.items())
+        return any(row < end and pieces & own.get((run, row), frozenset()) for row, pieces in wrong.items())
 
     def _order(self, base: Sequence[Wrong]) -> list[int]:
         """Some conforming runs that contradict often, all that deviate, and the other ones."""
@@ -111,11 +117,12 @@ def _within(
 
     Nor may it leave such a row open, unless the part does not decide that run to its end without it, either.
     """
+    may_be_open = parameter is not None or not bench.decided(number)
     found: dict[int, frozenset[tuple[str, int]]] = {}
     for row, wrong in _rows_of(bench, cone, number, parameter, base):
         if row in base:
             found[row] = wrong
-        elif wrong is not NOT_DECIDED or bench.decided(number):
+        elif wrong is not NOT_DECIDED or not may_be_open:
             return None
     return found
 
@@ -126,6 +133,7 @@ def _rows_of(
     """The rows that are wrong with a changed part; one that is not decided is as wrong as before."""
     for row, mismatch in bench.mismatches(cone, number, parameter):
         yield row, base.get(row, NOT_DECIDED) if mismatch is None else differing(mismatch)
+    yield from ((row, wrong) for row, wrong in base.items() if row >= bench.end(number))
 
 
 __all__ = ["RowJudge"]

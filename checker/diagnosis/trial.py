@@ -18,7 +18,7 @@ from rovercheck.checker.diagnosis.evidence import (
     logged_of,
     taken_otherwise,
 )
-from rovercheck.checker.diagnosis.pieces import Wrong, differing
+from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, differing
 from rovercheck.checker.diagnosis.values_together import (
     MOST_STATES,
     NO_VALUE,
@@ -69,10 +69,10 @@ class TrialBench:
         ends: Mapping[int, int] = ALL,
     ) -> None:
         self.evidence, self.readings, self.ends = evidence, tuple(readings), dict(ends)
-        deviating = evidence.deviating
-        firsts = {id(run): run.cases(evidence.name)[0].first for run in deviating}
+        firsts = {id(run): run.cases(evidence.name)[0].first for run in evidence.deviating}
         self.runs = sorted(evidence.runs, key=lambda run: firsts.get(id(run), 10**9 + len(run)))
         """Those with the earliest deviations first."""
+        self.numbers = {id(run): number for number, run in enumerate(self.runs)}
         self._order = list(range(len(self.runs)))
         self._rows: dict[tuple[object, ...], list[Rows | None]] = {}
         self._last: tuple[LogCone | None, list[Rows | None]] = (None, [])
@@ -102,7 +102,7 @@ class TrialBench:
                     wrong[row] = differing(mismatch)
             except NO_VALUE:
                 continue
-            if end > self._end(number):
+            if end > self.end(number):
                 ends[number], found[number] = end, wrong
         return (TrialBench(self.evidence, self.readings, ends) if found else self), found
 
@@ -111,9 +111,9 @@ class TrialBench:
         """The same with all rows of all runs."""
         return TrialBench(self.evidence, self.readings, {n: len(run) for n, run in enumerate(self.runs)})
 
-    def rows_behind(self, cone: LogCone) -> int:
-        """How many more rows a changed part explains in runs that the drawn one does not decide."""
-        return sum(row - self._end(n) for n, row, _ in self._behind(cone, None))
+    def rows_behind(self, cone: LogCone, among: Collection[int]) -> int:
+        """How many more rows a changed part explains in some runs that the drawn one does not decide."""
+        return sum(row - self.end(n) for n, row, _ in self._behind(cone, None) if n in among)
 
     def narrowed(self, cone: LogCone, name: str, value: Raw, values: Sequence[Raw]) -> Sequence[Raw]:
         """Those of some values of an input with which rows are right that one value gets wrong there.
@@ -133,7 +133,7 @@ class TrialBench:
         for number, run in enumerate(self.runs):
             if self.decided(number):
                 continue
-            end = self._end(number)
+            end = self.end(number)
             try:
                 rows = self._whole.mismatches(cone, number, parameter)
                 row, mismatch = next(((r, m) for r, m in rows if r >= end or m is None), (len(run), None))
@@ -144,9 +144,14 @@ class TrialBench:
 
     def decided(self, number: int) -> bool:
         """Whether the part, with what was taken so far, decides a run to its end."""
-        return self._end(number) == len(self.runs[number])
+        return self.end(number) == len(self.runs[number])
 
-    def _end(self, number: int) -> int:
+    def decides(self, rows: Pieces) -> bool:
+        """Whether some of the rows of a deviation count: of others nothing can be said yet."""
+        return any(row < self.end(self.numbers[run]) for run, row in rows)
+
+    def end(self, number: int) -> int:
+        """How many rows of a run count: those that the part, with what was taken so far, decides."""
         run = self.runs[number]
         return self.ends.get(number, run.undecided.get(self.evidence.name, len(run)))
 
@@ -184,7 +189,7 @@ class TrialBench:
 
     def wrong_rows(self, cone: LogCone, run: DecodedRun) -> Iterator[int]:
         """Every row of a run that a changed part gets wrong."""
-        return self._tracked(cone, next(n for n, one in enumerate(self.runs) if one is run), None)
+        return self._tracked(cone, self.numbers[id(run)], None)
 
     def passes(
         self,
@@ -272,7 +277,7 @@ class TrialBench:
                     given[at] = tuple(
                         (*one[:place], value, *one[place + 1 :]) for one, value in product(given[at], values)
                     )
-            found = rows[number] = list(zip(given, logged, strict=True))[: self._end(number)]
+            found = rows[number] = list(zip(given, logged, strict=True))[: self.end(number)]
         return found
 
     # --- following ---
@@ -306,12 +311,9 @@ class TrialBench:
     ) -> int | None:
         """The first row that is wrong up to ``last``, where everything that the part reads is known."""
         estimator = StateEstimator(cone, self.runs[number].run.tolerance)
-
-        agrees = estimator.agrees
+        agrees, states = estimator.agrees, list(estimator.power_up())
         if len(cone.system.variables) <= FEW_VARIABLES:
             step = cache(step)
-
-        states = list(estimator.power_up())
         for at, (options, logged) in enumerate(self._of(cone, number, rows)):
             if last is not None and at > last:
                 return None
@@ -347,7 +349,7 @@ class TrialBench:
         ``unknown``: an input that may have had any value, and the rows in which.
         """
         run = self.runs[number]
-        tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up, tells_inputs=False)
+        tracker = Tracker(cone, run.run.tolerance, run.run.from_power_up, False, parameter)
         place = None if parameter is None else place_of(cone, parameter[0])
         free = place_of(cone, unknown[0])
         rows = self._of(cone, number, self._prepared(cone))

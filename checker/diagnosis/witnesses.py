@@ -27,12 +27,11 @@ def first_cases(
     Those which the part passes as it is would keep nothing out.
     """
     found: dict[int, list[Witness]] = {}
-    ids = {id(run): number for number, run in enumerate(bench.runs)}
     for place in left:
         own: dict[int, set[int]] = {}
         for run, row in rows[place]:
-            if row in base[ids[run]]:
-                own.setdefault(ids[run], set()).add(row)
+            if row in base[bench.numbers[run]]:
+                own.setdefault(bench.numbers[run], set()).add(row)
         for number, wrong in own.items():
             first = last = min(wrong)
             while last + 1 in wrong:

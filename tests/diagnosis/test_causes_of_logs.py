@@ -15,6 +15,7 @@ from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector
 from rovercheck.checker.diagnosis.hypotheses import beginning_changes, mutant_changes, stamp_changes
 from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.checker.diagnosis.part_causes import DeviationCause, PartChanges, SearchedPart
+from rovercheck.checker.diagnosis.pieces import Pieces
 from rovercheck.checker.diagnosis.row_judge import OPEN, RowJudge
 from rovercheck.checker.diagnosis.trial import TrialBench
 from rovercheck.checker.diagnosis.values_together import TooManyStates
@@ -27,12 +28,21 @@ BOARD1, BOARD2 = boards()["board1"], boards()["board2"]
 class Bench:
     """Says of conforming runs which are left open, and that all of the last run is explained.
 
-    Or that a row of it is left open, where the charts as drawn decide the run to its end or not.
+    Or that a row of it is left open, where the charts as drawn decide the run to its end or not.  ``end``:
+    how many rows of each run count.
     """
 
-    def __init__(self, conforming: int, left_open: int, row: int = 0, to_its_end: bool = True) -> None:
+    def __init__(
+        self, conforming: int, left_open: int, row: int = 0, to_its_end: bool = True, end: int = 10
+    ) -> None:
         self.runs: list[list[int]] = [[0] * 10 for _ in range(conforming + 1)]
-        self._open, self._row, self._to_its_end = left_open, row, to_its_end
+        self._open, self._row, self._to_its_end, self._end = left_open, row, to_its_end, end
+
+    def end(self, _number: int) -> int:
+        return self._end
+
+    def decides(self, rows: Pieces) -> bool:
+        return any(row < self._end for _, row in rows)
 
     def decided(self, number: int) -> bool:
         return self._to_its_end or number < len(self.runs) - 1
@@ -57,6 +67,7 @@ def test_of_ten_conforming_runs_a_change_may_leave_one_open(left_open: int) -> N
     found = judge.all_right(*asked, None, frozenset({0}))
     assert (found is not None) is (left_open <= 3)
     assert (judge.mostly_right(*asked) is not None) is (left_open <= 3)
+    assert judge.all_right(*asked, ("a number that is left open", 290), frozenset({0})) is not None
     if found is not None:
         assert judge.explained(frozenset({0}), asked[0], found) == {0}
 
@@ -73,6 +84,18 @@ def test_a_run_that_is_left_open_may_be_so_from_an_earlier_row_on(
     judge = RowJudge({0: {(id(bench.runs[-1]), 7): piece}})
     asked = cast(TrialBench, bench), [{}, {7: piece}], cast(LogCone, None)
     assert (judge.all_right(*asked, None, frozenset({0})) is not None) is counts
+
+
+def test_what_lies_behind_the_rows_that_count_is_explained_by_nothing() -> None:
+    """It was taken to be right with whatever was tried first, and what that explained beside it with it."""
+    bench = cast(TrialBench, Bench(1, 0, end=5))
+    piece = frozenset({("B2Dec", 0)})
+    run = id(bench.runs[-1])
+    judge = RowJudge({0: {(run, 3): piece}, 1: {(run, 7): piece}, 2: {(run, 4): piece, (run, 8): piece}})
+    every = frozenset({0, 1, 2})
+    found = judge.all_right(bench, [{}, dict.fromkeys((3, 4, 7, 8), piece)], cast(LogCone, None), None, every)
+    assert found == [{}, {7: piece, 8: piece}]
+    assert judge.explained(every, bench, found) == {0, 2}
 
 
 def test_a_run_that_cannot_be_followed_is_neither_right_nor_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
