@@ -22,7 +22,7 @@ from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
 from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, with_new, wrong_of
-from rovercheck.checker.diagnosis.rivals import rivals, with_earliest
+from rovercheck.checker.diagnosis.rivals import rivals, with_earlier
 from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
@@ -247,7 +247,7 @@ class _CoverSearch(HypothesisSearch):
 
     def _accept(self, one: CoveringChange) -> None:
         """Take a change, and the rows of which nobody could know without it what is right."""
-        one = with_earliest(one, partial(self._explained, one))
+        one = with_earlier(one, partial(self._explained, one))
         self._base, self._system = list(one.wrong), one.system
         bench = self._bench.with_reading(one.change.reading)
         self._bench, found = bench.going_on(self._evidence.group.cone(self._system))

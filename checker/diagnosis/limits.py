@@ -32,7 +32,8 @@ from rovercheck.spec_model.lang.walk import nodes, structure
 _SIDES = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
 CLOSED = (Op.LE, Op.GE)
 OPPOSITE = {Op.LT: Op.GE, Op.GE: Op.LT, Op.LE: Op.GT, Op.GT: Op.LE}
-
+EQUALITY = 3.05
+"""How near another code lies that something is equal to: behind another member."""
 
 Gap = tuple[Fraction, Fraction]
 """Two successive values that were met, raw."""
@@ -66,6 +67,11 @@ class NumberSlot:
         """The number as drawn, raw."""
         return Fraction(self.old.value)
 
+    @property
+    def of_equality(self) -> bool:
+        """Whether it is a code that something is or is not, and no limit."""
+        return self.op in (Op.EQ, Op.NE)
+
     def opened(self, op: Op | None) -> System:
         """The system with the number left open, as an input."""
         return self._with(op, open_number(self.sort))
@@ -77,7 +83,8 @@ class NumberSlot:
         new, old = self._named(op, value), self._named(self.op, drawn)
         kind: ChangeKind = "constant" if self.op is None else "limit" if raw != self.drawn else "comparison"
         where = "" if self.at == "everywhere" else f", {place_text(self.at)}"
-        text = f"a limit of {new}, instead of {old}{where}" if op else f"{new} instead of {old}{where}"
+        limit = op is not None and not self.of_equality
+        text = f"a limit of {new}, instead of {old}{where}" if limit else f"{new} instead of {old}{where}"
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
         far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 if raw != self.drawn else 0.0
@@ -85,6 +92,7 @@ class NumberSlot:
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
             lambda: self._with(op, self._number(op, raw)), far / 100, self._between(between),
+            tier=EQUALITY if self.of_equality else None,
         )  # fmt: skip
 
     def _between(self, gap: Gap | None) -> str:
@@ -95,7 +103,7 @@ class NumberSlot:
 
     def _named(self, op: Op | None, value: Fraction) -> str:
         unit = f" {self.sort.unit}" if self.sort.unit else ""
-        if op is None:
+        if op is None or self.of_equality:
             return f"{number_text(value)}{unit}"
         return f"{number_text(value)}{unit}, {'closed' if op in CLOSED else 'open'}"
 
@@ -275,7 +283,7 @@ def values_of(
     if slot.op is None or slot.left is None:
         for value in _constants(slot, factors):
             found[None, value] = None
-    elif slot.op in (Op.EQ, Op.NE):
+    elif slot.of_equality and slot.op is not None:
         for value in (slot.drawn + 1, slot.drawn - 1, *met.of(slot.left)[1][:20]):
             found[slot.op, value] = None
     else:

@@ -25,13 +25,15 @@ def rivals(good: Sequence[CoveringChange]) -> tuple[ChartChange, ...]:
     return tuple(found.values())[1 : MOST_RIVALS + 1]
 
 
-def with_earliest(one: CoveringChange, explained: Callable[[StampReading], frozenset[int]]) -> CoveringChange:
-    """Of a stamp that is new in every step from an update on: with the earliest that explains the same."""
+def with_earlier(one: CoveringChange, explained: Callable[[StampReading], frozenset[int]]) -> CoveringChange:
+    """Of a stamp that is new in every step from an update on: with the earlier ones that explain the same."""
     earlier = one.change.reading.earlier if one.explains and one.change.reading is not None else ()
     same = list(takewhile(lambda reading: explained(reading) == one.explains, earlier))
     if not same:
         return one
-    return replace(one, change=replace(one.change, note=f"{same[-1].how} explains the same"))
+    others = " and ".join(filter(None, (", ".join(r.since for r in same[:-1]), same[-1].since)))
+    note = f"{others} explain{'s' if len(same) == 1 else ''} the same"
+    return replace(one, change=replace(one.change, note=note))
 
 
 def _place(change: ChartChange) -> tuple[str, ...]:
@@ -40,4 +42,4 @@ def _place(change: ChartChange) -> tuple[str, ...]:
     return (change.chart, at, change.new if change.kind == "interpretation" else change.old)
 
 
-__all__ = ["rivals", "with_earliest"]
+__all__ = ["rivals", "with_earlier"]

@@ -147,8 +147,10 @@ class HypothesisSearch(ABC):
         near = sum(self.order(change) < (TIERS["limit"],) for change in changes)
         self._each(changes[:near])
         if not self.ended:
-            self._limits(system, only)
+            self._limits([one for one in number_slots(system, only) if not one.of_equality])
         self._each(changes[near:])
+        if not self.ended:
+            self._limits([one for one in number_slots(system, only) if one.of_equality])
         if not self.satisfied:
             extra = list(extra_changes(system, only))
             self.of += len(extra)
@@ -256,10 +258,9 @@ class HypothesisSearch(ABC):
 
     # --- limits ---
 
-    def _limits(self, system: System, only: frozenset[str]) -> None:
+    def _limits(self, slots: Sequence[NumberSlot]) -> None:
         factors = self._factors()
-        slots = sorted(number_slots(system, only), key=lambda s: not s.at.startswith("everywhere"))
-        for slot in slots:
+        for slot in sorted(slots, key=lambda s: not s.at.startswith("everywhere")):
             if not self.concerns(slot.change(slot.op, slot.drawn)):
                 continue
             values = values_of(slot, self._met, factors)

@@ -69,6 +69,11 @@ class StampReading:
         later = hows[hows.index(self.how) + 1 :] if self.how in hows else []
         return tuple(StampReading(self.stamp, how) for how in later)
 
+    @property
+    def since(self) -> str:
+        """From which update on: "from update 8 on"."""
+        return self.how.removeprefix(NEW).lstrip()
+
     def start(self) -> Take:
         """Takes the stamp step by step from power-up."""
         return READINGS[self.how][1]()
@@ -169,8 +174,11 @@ UPDATES = (256, 128, 64, 32, 16, 8, 4, 2, 1)
 """After so many a counter that is cut off may no longer equal its copy; the later, the fewer steps differ."""
 
 
+NEW = "new in every step"
+
+
 def _new_from(update: int) -> str:
-    return f"new in every step from update {update} on"
+    return f"{NEW} from update {update} on"
 
 
 class _First:
