@@ -9,7 +9,6 @@ from rovercheck.checker.adapters.implementation import Implementation, Value, Va
 from rovercheck.checker.compare.stimulus import Stimulus, StimulusPlayer
 from rovercheck.checker.conformance.cones import written_by
 from rovercheck.checker.conformance.deviations import Deviation
-from rovercheck.checker.encode.quick_formulas import QUICK
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.chart import parts
@@ -96,7 +95,7 @@ class SteppedCharts:
     def __init__(self, board: Board) -> None:
         self._board = board
         self._reader = board.reader()
-        self._interpreter = Interpreter(board.system, measured=True, value_of=QUICK)
+        self._interpreter = Interpreter(board.system, measured=True)
         self._assumed = board.system.assumed if takes_for_granted(board) else None
 
     def valuation(self) -> dict[str, int]:

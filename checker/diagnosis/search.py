@@ -146,11 +146,11 @@ class HypothesisSearch(ABC):
         self.of += len(changes)
         near = sum(self.order(change) < (TIERS["limit"],) for change in changes)
         self._each(changes[:near])
-        if not self.ended:
-            self._limits([one for one in number_slots(system, only) if not one.of_equality])
+        slots = [] if self.ended else list(number_slots(system, only))
+        self._limits([one for one in slots if not one.of_equality])
         self._each(changes[near:])
         if not self.ended:
-            self._limits([one for one in number_slots(system, only) if one.of_equality])
+            self._limits([one for one in slots if one.of_equality])
         if not self.satisfied:
             extra = list(extra_changes(system, only))
             self.of += len(extra)

@@ -172,8 +172,6 @@ class _NewFrom:
 
 UPDATES = (256, 128, 64, 32, 16, 8, 4, 2, 1)
 """After so many a counter that is cut off may no longer equal its copy; the later, the fewer steps differ."""
-
-
 NEW = "new in every step"
 
 

@@ -8,9 +8,6 @@ from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal,
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
 
-Evaluate = Callable[[Expr, Mapping[str, int]], int]
-"""The raw value of a formula in a state."""
-
 
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
     """The raw value of a formula without temporal words in a state (booleans are 0 and 1)."""

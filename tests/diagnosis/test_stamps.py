@@ -97,7 +97,6 @@ def test_from_which_update_a_stamp_is_new_in_every_step_is_told_as_far_as_runs_s
     planted: int, calm: range, note: str
 ) -> None:
     """While every step has an update nobody sees whether it is taken for one: 64 was told in place of 8."""
-
     reading = StampReading(HEARTBEAT, f"new in every step from update {planted} on")
     board = with_readings(BOARD1, [reading])
     runs = [recorded_on(board, links(seed, 500, 0, calm), f"run {seed}") for seed in (1, 2, 3)]

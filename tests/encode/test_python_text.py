@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
 from rovercheck.checker.encode.python_text import text_of
-from rovercheck.checker.encode.quick_formulas import OFTEN, QuickFormulas
 from rovercheck.spec_model.lang.domain import chosen, integer
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var, flag, var
@@ -25,14 +24,6 @@ def test_by_definition(data: DataObject) -> None:
     expr = data.draw(st.composite(lambda draw: booleans(draw, SCOPE, 4))() | _numbers)
     at = {v.name: data.draw(st.sampled_from(list(v.domain.values))) for v in SCOPE}
     assert eval(text_of(expr, lambda read: f"at[{read.name!r}]"), {"at": at}) == evaluate(expr, at)
-
-
-@given(st.data())
-def test_formulas_that_are_asked_for_often_keep_their_meaning(data: DataObject) -> None:
-    expr, quick = data.draw(st.composite(lambda draw: booleans(draw, SCOPE, 4))() | _numbers), QuickFormulas()
-    for _ in range(OFTEN + 5):
-        at = {v.name: data.draw(st.sampled_from(list(v.domain.values))) for v in SCOPE}
-        assert quick(expr, at) == evaluate(expr, at) and type(quick(expr, at)) is not bool
 
 
 _numbers = st.composite(lambda draw: integers(draw, SCOPE, 4))()

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from rovercheck.spec_model.lang.action import Action, Assign, If
-from rovercheck.spec_model.lang.evaluate import Evaluate, evaluate
+from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.interpret.run import Admits, Values, store
 from rovercheck.spec_model.lang.programmed import ProgrammedChart
@@ -13,15 +13,9 @@ class ProgramRun:
     """The run of such a chart over values shared with the other components."""
 
     def __init__(
-        self,
-        chart: ProgrammedChart,
-        at: Values,
-        fired: list[FiredTransition],
-        admits: Admits,
-        value_of: Evaluate = evaluate,
+        self, chart: ProgrammedChart, at: Values, fired: list[FiredTransition], admits: Admits
     ) -> None:
         self.chart, self._at, self._fired, self._admits = chart, at, fired, admits
-        self._value_of = value_of
         for place in (chart.entered, *chart.locations):
             at[place.name] = place.init
 
@@ -39,9 +33,9 @@ class ProgramRun:
                 case Assign(var) if var.name in self.chart.program.markers:
                     pass
                 case Assign(var, value):
-                    store(self._at, self.chart.name, var, self._value_of(value, self._at), self._admits)
+                    store(self._at, self.chart.name, var, evaluate(value, self._at), self._admits)
                 case If(condition, then, otherwise):
-                    self._run(then if self._value_of(condition, self._at) else otherwise)
+                    self._run(then if evaluate(condition, self._at) else otherwise)
 
 
 __all__ = ["ProgramRun"]

@@ -8,7 +8,6 @@ from rovercheck.spec_model.lang.action import Action, Assign, If, Send
 from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.evaluate import Evaluate, evaluate
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.fired_transition import FiredTransition, path_label
 from rovercheck.spec_model.lang.interpret.words import InterpretedWords
@@ -47,14 +46,13 @@ class ChartRun:
         admits: Admits | None = None,
         tested: Testing | None = None,
         elapsed: Var | None = None,
-        value_of: Evaluate = evaluate,
     ) -> None:
         self.chart = chart
         self._tested = tested
         self._at = at
         self._admits = admits or contains
         self._fired = fired
-        self._words = InterpretedWords(chart, tick_ms, elapsed, value_of)
+        self._words = InterpretedWords(chart, tick_ms, elapsed)
         self._active: dict[Path, int] = {}
         self._entries = 0
         self._owners = [(data, {chart.path(o) for o in owners}) for data, owners in chart.local_to]

@@ -6,7 +6,7 @@ from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
 from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
-from rovercheck.spec_model.lang.evaluate import Evaluate, evaluate
+from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.interpret.program import ProgramRun
@@ -22,8 +22,7 @@ class Interpreter:
     ``frozen`` gives raw values of frozen variables; those left out have their initial value.  With
     ``measured``, numbers may lie between the values of their domains: inputs are any numbers, and what is
     computed from them stays between the ends of its domain.  ``tested`` is told of every transition tested.
-    ``value_of`` says what formulas come to, if not the reference.  Raises ``ModelError`` for an ill-formed
-    system.
+    Raises ``ModelError`` for an ill-formed system.
     """
 
     def __init__(
@@ -33,10 +32,8 @@ class Interpreter:
         *,
         measured: bool = False,
         tested: Testing | None = None,
-        value_of: Evaluate = evaluate,
     ) -> None:
         check_system(system)
-        self._value_of = value_of
         self.system = system
         self._admits: Admits = within if measured else contains
         self._inputs = system.inputs
@@ -45,11 +42,9 @@ class Interpreter:
         self._fired: list[FiredTransition] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
         self._runs: dict[int, ChartRun | ProgramRun] = {
-            id(c): ProgramRun(c, self._at, self._fired, self._admits, value_of)
+            id(c): ProgramRun(c, self._at, self._fired, self._admits)
             if isinstance(c, ProgrammedChart)
-            else ChartRun(
-                c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed, value_of
-            )
+            else ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed)
             for c in system.charts
         }
 
@@ -85,16 +80,16 @@ class Interpreter:
                 case Block():
                     self._run_block(component.name, component.do)
                 case Enabled():
-                    if self._value_of(component.by, self._at):
+                    if evaluate(component.by, self._at):
                         self._execute(component.components)
 
     def _run_block(self, name: str, actions: Sequence[Action]) -> None:
         for action in actions:
             match action:
                 case Assign(data, value):
-                    store(self._at, name, data, self._value_of(value, self._at), self._admits)
+                    store(self._at, name, data, evaluate(value, self._at), self._admits)
                 case If(condition, then, otherwise):
-                    self._run_block(name, then if self._value_of(condition, self._at) else otherwise)
+                    self._run_block(name, then if evaluate(condition, self._at) else otherwise)
                 case _:
                     raise ModelError(f"{name}: a block has no states, so `{action}` has no receiver.")
 

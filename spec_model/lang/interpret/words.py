@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.evaluate import Evaluate, evaluate
+from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, Var, When
 from rovercheck.spec_model.lang.walk import nodes
 
@@ -26,10 +26,8 @@ class _Count:
 class InterpretedWords:
     """Counters and memories of the temporal words of one chart."""
 
-    def __init__(
-        self, chart: Chart, tick_ms: int, elapsed: Var | None = None, value_of: Evaluate = evaluate
-    ) -> None:
-        self._tick_ms, self._elapsed, self._value_of = tick_ms, elapsed, value_of
+    def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:
+        self._tick_ms, self._elapsed = tick_ms, elapsed
         self._since: dict[Path, int] = {}
         self._durations = {p: self._durations_of(chart, p) for p in chart.states}
         self._held = {id(w): self._count_of_held(w) for w in _words(chart, When.HELD)}
@@ -67,8 +65,8 @@ class InterpretedWords:
         for held in self._held.values():
             # The first tick of a row is not counted in ms: it only begins here.
             passed = self._passed(at) if held.in_ms and held.count else 1
-            held.count = held.count + passed if self._argument(held.word, at) else 0
-        now = {key: self._argument(word, at) for key, word in self._edges.items()}
+            held.count = held.count + passed if _argument(held.word, at) else 0
+        now = {key: _argument(word, at) for key, word in self._edges.items()}
         self._before, self._now = self._now or {key: 1 for key in now}, now
         self._since = {path: age + 1 for path, age in self._since.items()}
 
@@ -87,22 +85,20 @@ class InterpretedWords:
     def executed(self, path: Path, at: Mapping[str, int]) -> None:
         """Before the transitions of a state are tested: a false condition restarts its duration (G14)."""
         for timer in self._durations[path].values():
-            if not self._argument(timer.word, at):
+            if not _argument(timer.word, at):
                 timer.count = 0
 
     def end_of_step(self, at: Mapping[str, int]) -> None:
         """Durations of the states active now, with end-of-step values (rule G14)."""
         for path in self._since:
             for timer in self._durations[path].values():
-                timer.count = timer.count + 1 if self._argument(timer.word, at) else 0
+                timer.count = timer.count + 1 if _argument(timer.word, at) else 0
 
     # --- reading ---
 
     def value(self, expr: Expr, at: Mapping[str, int], source: Path | None = None) -> int:
         """The value of a formula of the chart; ``source`` is the state that its path leaves."""
-        if id(expr) in self._temporal:
-            return evaluate(self._known(expr, source), at)
-        return self._value_of(expr, at)
+        return evaluate(self._known(expr, source) if id(expr) in self._temporal else expr, at)
 
     def part(self, expr: Expr, at: Mapping[str, int], source: Path | None) -> int:
         """The value of a part of a formula of the chart."""
@@ -119,10 +115,6 @@ class InterpretedWords:
                 return Apply(op, tuple(self._known(a, source) for a in args), sort)
             case _:
                 return expr
-
-    def _argument(self, word: Temporal, at: Mapping[str, int]) -> int:
-        assert word.arg is not None
-        return self._value_of(word.arg, at)
 
     def _true(self, word: Temporal, source: Path | None) -> bool:
         match word.when:
@@ -141,3 +133,8 @@ class InterpretedWords:
 
 def _words(chart: Chart, when: When) -> list[Temporal]:
     return [n for n in nodes(*chart.expressions) if isinstance(n, Temporal) and n.when is when]
+
+
+def _argument(word: Temporal, at: Mapping[str, int]) -> int:
+    assert word.arg is not None
+    return evaluate(word.arg, at)
