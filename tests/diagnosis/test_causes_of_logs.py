@@ -171,3 +171,13 @@ def test_a_stamp_is_taken_in_one_way_in_all_parts(fits: str, monkeypatch: pytest
     told = [one.changes[0].new.split()[6] for one in made]
     assert told == {"8": ["8", "8"], "64": ["64", "64"], "none": ["64", "8"]}[fits]
     assert [cause.change for one in made for cause, _ in one.causes] == [one.changes[0] for one in made]
+
+
+def test_another_code_of_an_equality_is_no_limit_and_comes_behind_another_member() -> None:
+    """`B2Dec == 2` in place of `B2Dec == 4` was told, as an open limit, where two members were exchanged."""
+    slots = list(number_slots(BOARD2.system, frozenset({"TranslateDecision"})))
+    codes = [slot.change(slot.op, slot.drawn + 1) for slot in slots if slot.of_equality]
+    members = [c for c in mutant_changes(BOARD2.system) if c.kind == "member"]
+    assert codes and members
+    assert not any("limit" in code.text or "open" in code.text for code in codes)
+    assert min(code.nearness for code in codes) > max(one.nearness for one in members)
