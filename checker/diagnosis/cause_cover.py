@@ -16,13 +16,22 @@ from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
+from rovercheck.checker.diagnosis.bridges import NEAREST, ahead, bridges
 from rovercheck.checker.diagnosis.change import ChangeKind, ChartChange, Nearness
 from rovercheck.checker.diagnosis.cover import CoveringChange, PartCover, Sound, Unexplaining, Witness, ranked
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.influence import ChangeInfluence
-from rovercheck.checker.diagnosis.pieces import Pieces, Wrong, more_wrong, rows_of, with_new, wrong_of
-from rovercheck.checker.diagnosis.rivals import rivals, with_earlier
+from rovercheck.checker.diagnosis.pieces import (
+    Pieces,
+    Wrong,
+    more_wrong,
+    nothing_new,
+    rows_of,
+    with_new,
+    wrong_of,
+)
+from rovercheck.checker.diagnosis.rivals import read_earlier, rivals, with_earlier
 from rovercheck.checker.diagnosis.row_judge import RowJudge
 from rovercheck.checker.diagnosis.search import Clock, HypothesisSearch
 from rovercheck.checker.diagnosis.stamp_search import StampSearch
@@ -36,14 +45,10 @@ from rovercheck.spec_model.lang.system import System
 
 MOST_CAUSES = 8
 """Changes of one part that are put on top of each other."""
-NEAREST = 3
-"""Changes that explain the same of which it is tried whether they do so on top of others."""
 MORE_TIME = 1.5
 """Times the time for changes, after which those found are not put on top of each other any more."""
 MOST_BRIDGES = 3
 """Changes that explain nothing alone on which others are put, one after the other."""
-MOST_PARTLY = 60
-"""Such changes that are looked at, the nearest of those met."""
 GAIN = 4
 """Times as much as it makes wrong that such a change makes right."""
 ANYWHERE = ("extra", "held", "frozen", "enabled", "dead")
@@ -95,24 +100,27 @@ class _CoverSearch(HypothesisSearch):
         self._base = [wrong_of(run.wrong.get(self._name, ())) for run in self._bench.runs]
         self._left = frozenset(n for n in self._rows if self._rows[n])
         self._system = self._evidence.group.system
-        drawn = list(self._base)
+        drawn, ends = list(self._base), [run.undecided.get(self._name, len(run)) for run in self._bench.runs]
         sound = self._now
         others, instead = list[CoveringChange](), list[CoveringChange]()
         while len(self._cover.changes) < MOST_CAUSES:
             more = self._level()
-            at_sound = len(self._cover.changes) == sound.changes
-            if more and at_sound and not instead and (ahead := self._ahead()) is not None:
+            at_sound = len(self._cover.changes) == len(sound.changes)
+            if more and at_sound and not instead and (first := self._ahead()) is not None:
                 instead = list(self._good)
-                self._begin(ahead)
+                self._begin(first)
                 continue
             if more and self._more_explained():
-                if self._sound(drawn):
+                read_earlier(self._cover.changes, lambda one: self._added(one, self._system, self._left))
+                if nothing_new(drawn, self._base, ends):
                     sound, others, instead = self._now, [], []
                 continue
-            found = self._bridges() if more else []
+            found = bridges(self._partly, self._bridge, lambda: self._clock() > self._end) if more else []
             if at_sound:
                 others = found
-            elif found and found[0].cases > 0 and len(self._cover.changes) < sound.changes + MOST_BRIDGES:
+            elif (
+                found and found[0].cases > 0 and len(self._cover.changes) < len(sound.changes) + MOST_BRIDGES
+            ):
                 self._begin(found[0])
                 continue
             if self.late or not (others or instead):
@@ -123,7 +131,7 @@ class _CoverSearch(HypothesisSearch):
                 sound = self._now
             else:
                 self._begin(others.pop(0))
-        if instead and not self._sound(drawn):
+        if instead and not nothing_new(drawn, self._base, ends):
             self._back(sound)
             self._take(instead)
             sound = self._now
@@ -132,12 +140,6 @@ class _CoverSearch(HypothesisSearch):
         self._cover.left, self._cover.base, self._cover.system = self._left - told, self._base, self._system
         self._cover.bench = self._bench
         self._cover.tried, self._cover.of, self._cover.late = self.tried, self.of, self.late
-
-    def _sound(self, drawn: Sequence[Wrong]) -> bool:
-        """Whether nothing is wrong that was right without any change."""
-        runs = zip(drawn, self._base, self._bench.runs, strict=True)
-        decided = ((old, new, run.undecided.get(self._name, len(run))) for old, new, run in runs)
-        return all(row in old or row >= end for old, new, end in decided for row in new)
 
     def _level(self) -> bool:
         """Try every change on top of those taken; whether there is anything left to explain."""
@@ -178,11 +180,11 @@ class _CoverSearch(HypothesisSearch):
 
     @property
     def _now(self) -> Sound:
-        made = len(self._cover.changes)
-        return Sound(made, self._left, list(self._base), self._system, self._bench, self._rows)
+        made = self._cover.changes
+        return Sound(tuple(made), self._left, list(self._base), self._system, self._bench, self._rows)
 
     def _back(self, sound: Sound) -> None:
-        del self._cover.changes[sound.changes :]
+        self._cover.changes[:] = sound.changes
         self._left, self._base = sound.left, list(sound.base)
         self._system, self._bench = sound.system, sound.bench
         self._rows, self._judge = sound.rows, self._judge.of_rows(sound.rows)
@@ -201,11 +203,15 @@ class _CoverSearch(HypothesisSearch):
             if not any(self._again(one) for one in nearest if self._clock() < self._end):
                 return
 
-    def _explained(self, one: CoveringChange, reading: StampReading) -> frozenset[int]:
-        """What a change explains of all that it does, with a stamp taken otherwise."""
-        cone = self._cone(one.system)
-        wrong = None if cone is None else self._right(cone, None, one.explains, reading)
-        return frozenset() if wrong is None else self._judge.explained(one.explains, self._bench, wrong)
+    def _explained(
+        self, system: System, reading: StampReading | None, places: frozenset[int]
+    ) -> tuple[frozenset[int], Sequence[Wrong]]:
+        """What a part explains of deviations, with a stamp taken otherwise, and what is wrong with it."""
+        cone = self._cone(system)
+        wrong = None if cone is None else self._right(cone, None, places, reading)
+        return (
+            (frozenset(), ()) if wrong is None else (self._judge.explained(places, self._bench, wrong), wrong)
+        )
 
     def _combined(self) -> bool:
         """Take several readings of stamps that only together explain something, and make nothing wrong."""
@@ -235,19 +241,18 @@ class _CoverSearch(HypothesisSearch):
             system = found_change(self._board, self._system, WrittenChange(*change.key)).make()
         except ModelError:
             return False
-        cone = self._cone(system)
-        concerned = self._concerned(change)
-        wrong = None if cone is None else self._right(cone, None, concerned, change.reading)
-        if wrong is None:
-            return False
-        explains = self._judge.explained(concerned, self._bench, wrong)
+        return self._added(change, system, self._concerned(change))
+
+    def _added(self, change: ChartChange, system: System, concerned: frozenset[int]) -> bool:
+        """Take a change on top of those taken before, if it explains something there."""
+        explains, wrong = self._explained(system, change.reading, concerned)
         if explains:
             self._accept(CoveringChange(change, explains, 0, wrong, system))
         return bool(explains)
 
     def _accept(self, one: CoveringChange) -> None:
         """Take a change, and the rows of which nobody could know without it what is right."""
-        one = with_earlier(one, partial(self._explained, one))
+        one = with_earlier(one, lambda reading: self._explained(one.system, reading, one.explains)[0])
         self._base, self._system = list(one.wrong), one.system
         bench = self._bench.with_reading(one.change.reading)
         self._bench, found = bench.going_on(self._evidence.group.cone(self._system))
@@ -288,9 +293,6 @@ class _CoverSearch(HypothesisSearch):
 
     # --- judging ---
 
-    def _passed(self, cone: LogCone, one: Witness, parameter: Parameter | None) -> bool:
-        return self._bench.passes(cone, one.number, one.last, parameter, one.masked)
-
     def passing(self, cone: LogCone, change: ChartChange, values: Sequence[Raw]) -> set[Raw]:
         """The values with which some witness is right that the change may concern."""
         concerned = self._concerned(change)
@@ -318,7 +320,8 @@ class _CoverSearch(HypothesisSearch):
         made = change()
         concerned = self._concerned(made)
         witnesses = [one for one in self._witnesses if one.place in concerned]
-        places = [one.place for one in witnesses if self._passed(cone, one, parameter)]
+        passes = partial(self._bench.passes, cone)
+        places = [w.place for w in witnesses if passes(w.number, w.last, parameter, w.masked)]
         passed = len(places)
         if not passed:
             return False
@@ -353,35 +356,8 @@ class _CoverSearch(HypothesisSearch):
             return None
 
     def _ahead(self) -> CoveringChange | None:
-        """A change that makes something wrong, and explains more than others, and all that one of these does.
-
-        These make nothing wrong, but explain a few cases by chance where this one and another cause mask each
-        other.
-        """
         partly = [one for one in self._partly if self._good and one.passed > self._passed_by_good]
-        bridges = map(self._bridge, sorted(partly, key=lambda one: one.rank)[:NEAREST])
-        most = max((len(one.explains) for one in self._good), default=0)
-        found = [
-            bridge
-            for bridge in bridges
-            if bridge is not None
-            and len(bridge.explains) > most
-            and any(one.explains < bridge.explains for one in self._good)
-        ]
-        return max(found, key=lambda bridge: (len(bridge.explains), bridge.cases), default=None)
-
-    def _bridges(self) -> list[CoveringChange]:
-        """Changes on which others may be put, those first that make most right and little wrong.
-
-        One that makes more wrong counts if it explains some deviation wholly: another one may mask it.
-        """
-        found: list[CoveringChange] = []
-        for one in sorted(self._partly, key=lambda one: one.rank)[:MOST_PARTLY]:
-            if self._clock() > self._end:
-                break
-            if (bridge := self._bridge(one)) and (bridge.cases > 0 or bridge.explains):
-                found.append(bridge)
-        return sorted(found, key=lambda one: -one.cases)
+        return ahead(partly, self._good, self._bridge)
 
     def _bridge(self, one: Unexplaining) -> CoveringChange | None:
         """What a change does, if it makes nothing wrong earlier than now; ``cases`` is what it gains."""

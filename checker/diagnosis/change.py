@@ -127,6 +127,11 @@ class ChartChange:
         return (self.kind, self.chart, self.at, self.old, self.new)
 
     @property
+    def told(self) -> tuple[str, ...]:
+        """The change, and what else would do."""
+        return (*self.key, self.note)
+
+    @property
     def nearness(self) -> Nearness:
         """The nearer of two changes that explain as much comes first."""
         return (TIERS.get(self.kind, 3) if self.tier is None else self.tier, self.distance)

@@ -54,9 +54,9 @@ class Unexplaining:
 
 @dataclass(frozen=True)
 class Sound:
-    """What was found up to so many changes: sound, if nothing is wrong that was right without them."""
+    """What was found with some changes: sound, if nothing is wrong that was right without them."""
 
-    changes: int
+    changes: Sequence[tuple[ChartChange, frozenset[int]]]
     left: frozenset[int]
     base: Sequence[Wrong]
     system: System

@@ -1,6 +1,6 @@
 """What differs, row by row, and to which deviation it belongs."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope, Grouping, whole_of
 from rovercheck.checker.conformance.mismatch import LogMismatch
@@ -83,10 +83,19 @@ def differing(mismatch: LogMismatch) -> frozenset[tuple[str, int]]:
     return frozenset((d.output.name, d.bit) for one in mismatch.differences for d in one.each_bit())
 
 
+def nothing_new(before: Sequence[Wrong], now: Sequence[Wrong], ends: Iterable[int]) -> bool:
+    """Whether of the rows of each run that are decided none is wrong that was right before."""
+    runs = zip(before, now, ends, strict=True)
+    return all(row in old or row >= end for old, new, end in runs for row in new)
+
+
 def more_wrong(one: Sequence[Wrong], other: Sequence[Wrong]) -> int:
     """How much is wrong in one that is right in the other, in outputs of all rows."""
     pairs = zip(one, other, strict=True)
     return sum(len(own - there.get(row, frozenset())) for here, there in pairs for row, own in here.items())
 
 
-__all__ = ["NOT_DECIDED", "Pieces", "Wrong", "differing", "more_wrong", "rows_of", "with_new", "wrong_of"]
+__all__ = [
+    "NOT_DECIDED", "Pieces", "Wrong", "differing", "more_wrong", "nothing_new", "rows_of", "with_new",
+    "wrong_of",
+]  # fmt: skip

@@ -25,6 +25,21 @@ def rivals(good: Sequence[CoveringChange]) -> tuple[ChartChange, ...]:
     return tuple(found.values())[1 : MOST_RIVALS + 1]
 
 
+def read_earlier(
+    taken: list[tuple[ChartChange, frozenset[int]]], added: Callable[[ChartChange], bool]
+) -> None:
+    """A stamp that is new in every step from an update on, from an earlier one on, where that explains more.
+
+    ``taken`` are the changes found so far; ``added`` takes a change on top of them if it explains something.
+    """
+    for place, (change, own) in enumerate(taken):
+        for one in change.reading.earlier if change.reading is not None else ():
+            if added(replace(change, new=one.how, text=one.text, note="", reading=one)):
+                del taken[place]
+                taken[-1] = (taken[-1][0], taken[-1][1] | own)
+                return
+
+
 def with_earlier(one: CoveringChange, explained: Callable[[StampReading], frozenset[int]]) -> CoveringChange:
     """Of a stamp that is new in every step from an update on: with the earlier ones that explain the same."""
     earlier = one.change.reading.earlier if one.explains and one.change.reading is not None else ()
@@ -42,4 +57,4 @@ def _place(change: ChartChange) -> tuple[str, ...]:
     return (change.chart, at, change.new if change.kind == "interpretation" else change.old)
 
 
-__all__ = ["rivals", "with_earlier"]
+__all__ = ["read_earlier", "rivals", "with_earlier"]

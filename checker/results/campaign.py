@@ -110,9 +110,11 @@ class CampaignFinding:
     cause: str = ""
     """The change of the charts that explains it, in words, where one was looked for and found."""
     change: tuple[str, ...] = ()
-    """That change as a variant holds it: of what kind, in which chart, where, from what, to what."""
+    """That change: of what kind, in which chart, where, from what, to what, and what else would do."""
     other_places: tuple[tuple[str, ...], ...] = ()
     """The same change in other places."""
+    rivals: tuple[tuple[str, ...], ...] = ()
+    """Other changes that explain exactly as much."""
     places: tuple[Place, ...] = ()
     """Where to look for it, the best first: lines that assign the output, a map, or the recording."""
     key: str = ""

@@ -11,7 +11,10 @@ from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.recording import LogBlock, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.diagnosis.causes import CauseGroups, cause_groups, followed
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.hypotheses import stamp_changes
 from rovercheck.checker.diagnosis.result import diagnose_board
+from rovercheck.checker.diagnosis.rivals import read_earlier
 from rovercheck.checker.diagnosis.variant import (
     VariantError,
     WrittenChange,
@@ -22,13 +25,14 @@ from rovercheck.checker.diagnosis.variant import (
 )
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.abstraction.board import with_readings
-from rovercheck.spec_model.abstraction.readings import READINGS, StampReading, readings_of
+from rovercheck.spec_model.abstraction.readings import READINGS, StampReading, StampsTaken, readings_of
 from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.diagnosis.planted import CALM, Row, deviating, part_of, recorded_on
 
 HEARTBEAT, FRAME = "last_valid_b2_ms", "b2_data_last_valid_ms"
 BOARD1 = boards()["board1"]
+MONITORS = frozenset({"Monitor_heartbeat"})
 TOGETHER = "into one record with "
 WRAPPING = "into one record, added up in 32 bits, with "
 
@@ -103,6 +107,39 @@ def test_from_which_update_a_stamp_is_new_in_every_step_is_told_as_far_as_runs_s
     [one] = {c.change for c in grouped(runs).causes if c.part == "Monitor_heartbeat"}
     assert one is not None and one.reading == reading
     assert one.note.endswith(note) and bool(one.note) is bool(note)
+
+
+def since(update: int) -> StampReading:
+    return StampReading(HEARTBEAT, f"new in every step from update {update} on")
+
+
+def test_an_earlier_update_that_explains_more_takes_the_place_of_a_later_one() -> None:
+    """64 was told, and a limit for the one row of a folder that only update 8 or an earlier one explains."""
+    [late] = [c for c in stamp_changes(BOARD1, BOARD1.system, MONITORS) if c.reading == since(64)]
+    taken = [(late, frozenset({1})), (replace(late, reading=None), frozenset({2}))]
+
+    def added(one: ChartChange) -> bool:
+        if one.reading != since(8):
+            return False
+        taken.append((one, frozenset({3})))
+        return True
+
+    read_earlier(taken, added)
+    (_, other), (change, explained) = taken
+    assert (change.reading, change.new, change.text) == (since(8), since(8).how, since(8).text)
+    assert (other, explained) == (frozenset({2}), frozenset({1, 3}))
+    before = list(taken)
+    read_earlier(taken, lambda _: False)
+    assert taken == before
+
+
+@pytest.mark.parametrize("late", [16, 64])
+def test_an_earlier_update_on_top_of_a_later_one_is_the_earlier_one(late: int) -> None:
+    """So that a change for it takes the place of the other one."""
+    both, alone = StampsTaken([since(late), since(8)]), StampsTaken([since(8)])
+    for row in links(5, 400):
+        stamps, now = {HEARTBEAT: int(row[HEARTBEAT])}, int(row[NOW])
+        assert both.step(stamps, now) == alone.step(stamps, now)
 
 
 def test_several_stamps_that_only_together_explain_anything_are_found_together() -> None:

@@ -8,7 +8,7 @@ from rovercheck.checker.commands.check_log.campaign import LogCampaign
 from rovercheck.checker.commands.check_log.causes import LOGS, not_searched
 from rovercheck.checker.commands.check_log.text import LogFault, Outcome
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
-from rovercheck.checker.commands.shared.cause_text import also, says, untold
+from rovercheck.checker.commands.shared.cause_text import also, untold, with_cause
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.excerpt import ExcerptWindow, excerpts
@@ -83,8 +83,7 @@ class LogReport:
         more = [("or", told)] if (told := untold(cause, LOGS[1])) else []
         more += [("also", also(one, cause, LOGS)) for one in cause.deviations[1:]]
         found = deviation_finding(board, cause.first, self.campaign.judgements[board], OF_LOGS, met, more)
-        found = replace(found, cause=says(cause), change=cause.change.key if cause.change else ())
-        found = replace(found, other_places=tuple(change.key for change in cause.other_places))
+        found = with_cause(found, cause)
         place = Place(str(self.folder / found.first.recording), found.first.line)
         if isinstance(drawn, str):
             return replace(found, undrawn=drawn, places=(place,))

@@ -9,7 +9,7 @@ from rovercheck.checker.commands.compare.cause_text import RUNS, in_all, searche
 from rovercheck.checker.commands.compare.places import ImplementationPlaces
 from rovercheck.checker.commands.compare.text import CrosscheckReport, failure_cause, untried
 from rovercheck.checker.commands.shared.campaign_findings import deviation_finding, sightings
-from rovercheck.checker.commands.shared.cause_text import also, says, untold
+from rovercheck.checker.commands.shared.cause_text import also, untold, with_cause
 from rovercheck.checker.commands.shared.known import known_lines
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.compare.beside import differences
@@ -123,10 +123,8 @@ class BoardRecord:
         for cause in self.of.findings:
             group = [met[one.scope] for one in cause.deviations]
             outputs = list(dict.fromkeys(name for one in group for name in one.outputs))
-            change = cause.change.key if cause.change else ()
-            others = tuple(one.key for one in cause.other_places)
-            found = replace(self._finding(cause, group), cause=says(cause), change=change)
-            yield replace(found, other_places=others, places=places.of(outputs))
+            found = with_cause(self._finding(cause, group), cause)
+            yield replace(found, places=places.of(outputs))
         for failure in self._failures:
             yield replace(self._failed(failure), places=places.of(()))
 

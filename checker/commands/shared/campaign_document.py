@@ -103,6 +103,8 @@ class FindingChangeRow(TypedDict):
     """What stands there as drawn."""
     new: str
     """What stands there as changed."""
+    note: str
+    """What else would do: the values that the recordings allow; often empty."""
 
 
 class CampaignFindingRow(TypedDict):
@@ -120,6 +122,8 @@ class CampaignFindingRow(TypedDict):
     """That change; null where there is none, or where an input explains it."""
     other_places: list[FindingChangeRow]
     """The same change in other places, as a limit that two charts have in common."""
+    rivals: list[FindingChangeRow]
+    """Other changes that explain exactly as much, up to two of those that were tried."""
     first: OccurrenceRow
     worst: OccurrenceRow
     sightings: list[SightingRow]
@@ -186,6 +190,7 @@ def _finding(one: CampaignFinding) -> CampaignFindingRow:
         "cause": one.cause,
         "change": _change(*one.change) if one.change else None,
         "other_places": [_change(*change) for change in one.other_places],
+        "rivals": [_change(*change) for change in one.rivals],
         "first": _occurrence(one.first),
         "worst": _occurrence(one.worst),
         "sightings": [_sighting(s) for s in one.sightings],
@@ -203,8 +208,8 @@ def _finding(one: CampaignFinding) -> CampaignFindingRow:
     }
 
 
-def _change(kind: str, chart: str, at: str, old: str, new: str) -> FindingChangeRow:
-    return {"kind": kind, "chart": chart, "at": at, "old": old, "new": new}
+def _change(kind: str, chart: str, at: str, old: str, new: str, note: str) -> FindingChangeRow:
+    return {"kind": kind, "chart": chart, "at": at, "old": old, "new": new, "note": note}
 
 
 def _occurrence(one: CampaignOccurrence) -> OccurrenceRow:

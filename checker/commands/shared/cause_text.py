@@ -1,12 +1,14 @@
 """What is told of the cause of deviations: what explains them, in which ways they show."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from rovercheck.checker.commands.shared.deviation_text import headline
 from rovercheck.checker.commands.shared.output import counted
 from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause
 from rovercheck.checker.diagnosis.sentences import behaves_like, like
+from rovercheck.checker.results.campaign import CampaignFinding
 
 
 def says(cause: DeviationCause) -> str:
@@ -18,6 +20,17 @@ def says(cause: DeviationCause) -> str:
     if cause.change is not None:
         return behaves_like(cause.change)
     return f"{cause.part} behaves as if it had other values of {cause.input}" if cause.input else ""
+
+
+def with_cause(found: CampaignFinding, cause: DeviationCause) -> CampaignFinding:
+    """A finding with what explains it, in words and as data."""
+    return replace(
+        found,
+        cause=says(cause),
+        change=cause.change.told if cause.change else (),
+        other_places=tuple(change.told for change in cause.other_places),
+        rivals=tuple(change.told for change in cause.rivals),
+    )
 
 
 def untold(cause: DeviationCause, recordings: str) -> str:
