@@ -1,11 +1,12 @@
 """Whether the tests notice when a rule of Stateflow's semantics is broken in a reading of drawn models.
 
-    python -m benchmarks.chart_rules [--reading READING] [RULE ...]
+    python -m benchmarks.chart_rules [--reading READING] [--write] [RULE ...]
 
 Copies the project, breaks one rule of chart_rules.toml after the other, and runs the tests of its reading on
 each: of the direct interpreter (``interpret``), of the lowering (``lower``), of what both rest on
-(``drawn``), or of the packages (``simulink``).  Prints the first test that fails.  A rule is named by its
-first words.  The exit code is 1 if one is broken unnoticed.
+(``drawn``), or of the packages (``simulink``): the one first that noticed it when the table was written with
+``--write``.  Prints the first test that fails.  A rule is named by its first words.  The exit code is 1 if
+one is broken unnoticed.
 """
 
 import argparse
@@ -15,9 +16,13 @@ import subprocess
 import sys
 import tempfile
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
+
+import tomlkit
+from tomlkit.items import AoT
 
 from benchmarks.edits import LEFT_OUT, ROOT
 
@@ -39,6 +44,8 @@ class BrokenRule:
     before: str
     after: str
     reading: str = "interpret"
+    noticed_by: str = ""
+    """The test that has noticed it, which is run before all others."""
 
 
 INTERPRETER = (
@@ -67,19 +74,31 @@ READINGS: Mapping[str, Reading] = {
     "drawn": Reading(Path("checker/drawn"), INTERPRETER),
     "simulink": Reading(Path("checker/simulink"), PACKAGES),
 }
-_FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
+TABLE = Path(__file__).with_suffix(".toml")
+SECONDS = 900.0
+"""After which tests that do not end are stopped."""
+_FAILED = re.compile(r"^(?:FAILED|ERROR) ([^\s\[]+)", re.MULTILINE)
 
 
 def rules() -> list[BrokenRule]:
     """The rules and how each is broken."""
-    text = Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
-    return [BrokenRule(**one) for one in tomllib.loads(text)["rule"]]
+    return [BrokenRule(**one) for one in tomllib.loads(TABLE.read_text(encoding="utf-8"))["rule"]]
+
+
+def written(table: str, noticed: Mapping[str, str]) -> str:
+    """The table with the tests that have noticed its rules, by the names of these."""
+    document = tomlkit.parse(table)
+    for one in cast(AoT, document["rule"]):
+        if test := noticed.get(str(one["name"])):
+            one["noticed_by"] = test
+    return tomlkit.dumps(document)
 
 
 def main(arguments: list[str]) -> int:
     """Break each rule, and print whether it is noticed; the exit code."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.chart_rules")
     parser.add_argument("--reading", choices=READINGS, action="append", help="only the rules of this reading")
+    parser.add_argument("--write", action="store_true", help="note in the table which test noticed each")
     parser.add_argument("names", nargs="*", metavar="RULE", help="the first words of a rule")
     given = parser.parse_args(arguments)
     chosen = [
@@ -88,20 +107,22 @@ def main(arguments: list[str]) -> int:
         if one.reading in (given.reading or READINGS)
         and (not given.names or any(one.name.startswith(name) for name in given.names))
     ]
-    unnoticed = 0
+    noticed: dict[str, str] = {}
     with tempfile.TemporaryDirectory(prefix="rovercheck-rules-") as place:
         project = Path(place) / "project"
         shutil.copytree(ROOT, project, symlinks=True, ignore=LEFT_OUT)
         for reading in dict.fromkeys(one.reading for one in chosen):
-            if failed := first_failure(project, READINGS[reading]):
+            if failed := first_failure(project, READINGS[reading].tests):
                 print(f"{failed} fails though nothing is broken", file=sys.stderr)
                 return 4
         for one in chosen:
-            noticed = broken(project, one)
-            unnoticed += not noticed
-            print(f"{one.reading:10} {one.name}: {noticed or 'UNNOTICED'}", flush=True)
-    print(f"{len(chosen) - unnoticed} of {len(chosen)} broken rules are noticed")
-    return 1 if unnoticed else 0
+            if test := broken(project, one):
+                noticed[one.name] = test
+            print(f"{one.reading:10} {one.name}: {test or 'UNNOTICED'}", flush=True)
+    if given.write:
+        TABLE.write_text(written(TABLE.read_text(encoding="utf-8"), noticed), encoding="utf-8")
+    print(f"{len(noticed)} of {len(chosen)} broken rules are noticed")
+    return 0 if len(noticed) == len(chosen) else 1
 
 
 def broken(project: Path, one: BrokenRule) -> str:
@@ -113,15 +134,21 @@ def broken(project: Path, one: BrokenRule) -> str:
         raise ValueError(f"{one.name}: {one.before!r} is {text.count(one.before)} times in {file.name}")
     file.write_text(text.replace(one.before, one.after), encoding="utf-8")
     try:
-        return first_failure(project, reading)
+        known = first_failure(project, [one.noticed_by]) if one.noticed_by else ""
+        return known if known == one.noticed_by else first_failure(project, reading.tests)
     finally:
         file.write_text(text, encoding="utf-8")
 
 
-def first_failure(project: Path, reading: Reading) -> str:
-    """The first test of a reading that fails in a copy of the project; empty if all succeed."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *reading.tests]
-    done = subprocess.run(command, cwd=project, capture_output=True, check=False, timeout=900, text=True)
+def first_failure(project: Path, tests: Sequence[str]) -> str:
+    """The first of some tests that fails in a copy of the project; empty if all succeed."""
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *tests]
+    try:
+        done = subprocess.run(
+            command, cwd=project, capture_output=True, check=False, timeout=SECONDS, text=True
+        )
+    except subprocess.TimeoutExpired:
+        return "the tests do not end"
     if done.returncode == 0:
         return ""
     found = _FAILED.search(done.stdout)
