@@ -116,7 +116,7 @@ def main(arguments: list[str]) -> int:
                 print(f"{failed} fails though nothing is broken", file=sys.stderr)
                 return 4
         for one in chosen:
-            if test := broken(project, one):
+            if test := broken(project, one, READINGS[one.reading].tests):
                 noticed[one.name] = test
             print(f"{one.reading:10} {one.name}: {test or 'UNNOTICED'}", flush=True)
     if given.write:
@@ -125,17 +125,17 @@ def main(arguments: list[str]) -> int:
     return 0 if len(noticed) == len(chosen) else 1
 
 
-def broken(project: Path, one: BrokenRule) -> str:
+def broken(project: Path, one: BrokenRule, tests: Sequence[str]) -> str:
     """The first test that fails with a rule broken, which is then as it was; empty if none does."""
-    reading = READINGS[one.reading]
-    file = project / reading.folder / f"{one.module}.py"
+    file = project / READINGS[one.reading].folder / f"{one.module}.py"
     text = file.read_text(encoding="utf-8")
     if text.count(one.before) != 1:
         raise ValueError(f"{one.name}: {one.before!r} is {text.count(one.before)} times in {file.name}")
     file.write_text(text.replace(one.before, one.after), encoding="utf-8")
     try:
-        known = first_failure(project, [one.noticed_by]) if one.noticed_by else ""
-        return known if known == one.noticed_by else first_failure(project, reading.tests)
+        if one.noticed_by and first_failure(project, [one.noticed_by]) == one.noticed_by:
+            return one.noticed_by
+        return first_failure(project, tests)
     finally:
         file.write_text(text, encoding="utf-8")
 

@@ -1,8 +1,10 @@
 """The rules that are broken on purpose: each is still written in its module as they say."""
 
+from pathlib import Path
+
 import pytest
 
-from benchmarks.chart_rules import READINGS, TABLE, BrokenRule, rules, written
+from benchmarks.chart_rules import READINGS, TABLE, BrokenRule, broken, rules, written
 from benchmarks.edits import ROOT
 
 
@@ -31,3 +33,32 @@ def test_the_table_is_written_with_them_and_is_else_as_it_was() -> None:
     lines = set(new.splitlines()) - set(table.splitlines())
     assert lines == {'noticed_by = "tests/some.py::test_it"'}
     assert written(new, {}) == new
+
+
+@pytest.mark.parametrize(
+    ("known", "after", "noticed"),
+    [
+        ("", "False", "test_it.py::test_one"),
+        ("test_it.py::test_two", "False", "test_it.py::test_two"),
+        ("test_it.py::test_gone", "False", "test_it.py::test_one"),
+        ("test_it.py::test_three", "False", "test_it.py::test_one"),
+        ("", "1", ""),
+        ("test_it.py::test_two", "1", ""),
+    ],
+)
+def test_a_rule_is_noticed_by_the_known_test_or_by_another(
+    known: str, after: str, noticed: str, tmp_path: Path
+) -> None:
+    """Every rule that no test was noted for was told as unnoticed."""
+    folder = tmp_path / READINGS["interpret"].folder
+    folder.mkdir(parents=True)
+    module, tests = folder / "rule.py", tmp_path / "test_it.py"
+    module.write_text("HOLDS = True\n", encoding="utf-8")
+    tests.write_text(
+        f"import sys\nsys.path.insert(0, {str(folder)!r})\nfrom rule import HOLDS\n"
+        "def test_one(): assert HOLDS\ndef test_two(): assert HOLDS\ndef test_three(): pass\n",
+        encoding="utf-8",
+    )
+    rule = BrokenRule("a rule", "rule", "True", after, noticed_by=known)
+    assert broken(tmp_path, rule, [tests.name]) == noticed
+    assert module.read_text(encoding="utf-8") == "HOLDS = True\n"
