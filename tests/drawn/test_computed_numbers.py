@@ -26,6 +26,7 @@ MATLAB: Sequence[tuple[str, Sequence[float], Sequence[float]]] = (
     ("double(all([u 1]))", (3, 0), (1, 0)), ("sum(ones(1, 3)) + u", (1,), (4,)),
     ("double(isequal([u 1], [2 1]))", (2, 3), (1, 0)), ("double(isequal([u 1], 2))", (2,), (0,)),
     ("double(u > 0) + (u > 1)", (2, 1), (2, 1)), ("double(in(A))", (2, 1), (1, 1)),
+    ("double(uint8(u) * 0 < 0)", (3, 0), (0, 0)),
 )  # fmt: skip
 
 

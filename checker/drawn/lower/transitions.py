@@ -39,12 +39,15 @@ class TransitionWriter(FunctionWriter):
     def _exit_children(self, node: StateNode) -> None:
         if node.parallel:
             for region in reversed(node.children):
-                self.writer.choose(self.active(region), partial(self._exit, region))
+                self._exit(region)
         else:
             self._for_active_child(node, node.children, self._exit)
 
     def _exit(self, node: StateNode) -> None:
-        """Inner states first; it is active while its exit action runs."""
+        """Inner states first; it is active while its exit action runs.
+
+        A region may not be active where an event has its parent left before it is entered.
+        """
         self._exit_children(node)
         self.writer.choose(self.active(node) if self.sends else TRUE, lambda: self._exit_itself(node))
 
