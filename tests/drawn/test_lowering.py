@@ -269,6 +269,27 @@ def test_a_delay_gives_what_it_got_a_step_before(tmp_path: Path, name: str, valu
     assert both(runner, [1, 2, 3], name) == values
 
 
+@pytest.mark.parametrize("atomic", ["off", "on"])
+def test_a_delay_in_a_subsystem_that_always_runs_gives_what_it_got_a_step_before(
+    tmp_path: Path, atomic: str
+) -> None:
+    """No test had an atomic subsystem without a control port, which is a system of its own."""
+    model = WrittenModel("one", step="0.1")
+    u = model.root.inport("u", 1, OutDataTypeStr="double")
+    block, inside = model.root.subsystem("Sub", 1, 1)
+    deeper, innermost = inside.subsystem("Deeper", 1, 1)
+    model.root.say(block, TreatAsAtomicUnit=atomic)
+    inside.say(deeper, TreatAsAtomicUnit=atomic)
+    for outer, inner, name in ((inside, deeper, "i"), (innermost, "", "j")):
+        delay = outer.block("UnitDelay", "d", {"in": 1, "out": 1}, {}, InitialCondition="5")
+        outer.line(outer.inport(name, 1), delay)
+        outer.line(delay, inner or outer.outport("o", 1))
+    inside.line(deeper, inside.outport("o", 1))
+    model.root.line(u, block)
+    model.root.line(block, model.root.outport("y", 1))
+    assert both(ModelRunner(read_model(model.save(tmp_path / "one.slx"))), [1, 2, 3, 4], "y") == [5, 5, 1, 2]
+
+
 def test_a_disabled_subsystem_holds_what_passes_through_it(tmp_path: Path) -> None:
     """What was an output of another chart, or of a delay, went through also while it was disabled."""
     model = WrittenModel("one", step="0.1")
