@@ -78,8 +78,12 @@ _SITE = re.compile(r"(arrow|default)(?:/(.+?))?\.(\d+)|state/(.+)/(entry|during|
 def place_text(at: str) -> str:
     """Where a change is, for people: ``arrow/A.2 guard`` is ``in the guard of transition 2 from A``.
 
-    Sites that are written otherwise stay as they are.
+    Of several places at one site ``block#2`` is the second.  Sites that are written otherwise stay as they
+    are.
     """
+    at, _, number = at.partition("#")
+    if number:
+        return f"{place_text(at)} (place {number})"
     if at.startswith(("signal/", "stamp/")):
         return f"of {at.partition('/')[2]}"
     site, _, role = at.partition(" ")

@@ -1,5 +1,6 @@
 """All changes of a part that are tried, from near to far; those of limits have the values tried in limits."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
@@ -68,17 +69,28 @@ def _of_mutant(one: Mutant) -> ChartChange:
 
 
 def rewrite_changes(system: System, others: Mapping[str, Var], only: frozenset[str]) -> Iterator[ChartChange]:
-    """What the mutants leave out."""
+    """What the mutants leave out.
+
+    What is written several times at one site, as a member in the branches of an action, is one change of each
+    of them: ``block``, ``block#2`` and so on.
+    """
     for part in parts(system.components):
-        if part.name in only:
-            for one in rewrites(part, others):
-                yield _of_rewrite(system, part, one, REWRITES[one.kind])
-            for one in shared_memory(part):
-                yield _of_rewrite(system, part, one, "shared")
-            for one in rounded(part):
-                yield _of_rewrite(system, part, one, "rounded")
-            for one in function_rewrites(part, system.step_ms):
-                yield _of_rewrite(system, part, one, OPERATORS.get(one.kind, "dropped"))
+        met = Counter[tuple[str, ...]]()
+        for one, kind in _rewritten(system, part, others) if part.name in only else ():
+            key = (kind, one.site, one.old, one.new)
+            met[key] += 1
+            site = one.site if met[key] == 1 else f"{one.site}#{met[key]}"
+            yield _of_rewrite(system, part, replace(one, site=site), kind)
+
+
+def _rewritten(
+    system: System, part: Chart | Block, others: Mapping[str, Var]
+) -> Iterator[tuple[Rewrite, ChangeKind]]:
+    yield from ((one, REWRITES[one.kind]) for one in rewrites(part, others))
+    yield from ((one, "shared") for one in shared_memory(part))
+    yield from ((one, "rounded") for one in rounded(part))
+    for one in function_rewrites(part, system.step_ms):
+        yield one, OPERATORS.get(one.kind, "dropped")
 
 
 def region_changes(system: System, only: frozenset[str]) -> Iterator[ChartChange]:

@@ -4,11 +4,23 @@ from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.diagnosis.change import ChartChange
+from rovercheck.checker.diagnosis.hypotheses import mutant_changes, rewrite_changes, signals_of
 from rovercheck.checker.diagnosis.result import diagnose_board
-from rovercheck.checker.diagnosis.variant import VariantError, applied, read_variant, written
+from rovercheck.checker.diagnosis.variant import (
+    VariantError,
+    WrittenChange,
+    applied,
+    read_variant,
+    with_change,
+    written,
+)
 from rovercheck.checker.mutate.delays import late
+from rovercheck.checker.system.text import SystemText
 from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.edit import constant, in_expressions, timer
+from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.time import sec
 from tests.diagnosis.planted import changed, deviating, inputs, part_of, recorded, restless
@@ -84,3 +96,37 @@ def test_a_variant_that_does_not_fit_is_refused_with_its_place(
         applied(boards()["board1"], read_variant(file), str(file))
     assert says.replace("there is no another", "there is nothing for another") in str(refused.value)
     assert str(refused.value).startswith(str(file))
+
+
+def digest(system: System) -> str:
+    text = SystemText()
+    text.system(lower(system))
+    return text.digest
+
+
+def all_changes(board: str) -> list[ChartChange]:
+    drawn = boards()[board]
+    names = frozenset(part.name for part in parts(drawn.system.components))
+    return [*mutant_changes(drawn.system), *rewrite_changes(drawn.system, signals_of(drawn), names)]
+
+
+@pytest.mark.parametrize("board", ["board1", "board2"])
+def test_no_two_changes_are_written_alike(board: str) -> None:
+    """Of a member in several branches of an action the first one was changed, whichever was found."""
+    keys = [change.key for change in all_changes(board)]
+    assert len(keys) == len({*keys})
+
+
+def test_what_stands_several_times_at_one_place_is_changed_where_it_was_found() -> None:
+    """A stop that is no emergency stop was known without its cause, and a fault behind it was not seen."""
+    board = boards()["board2"]
+    alike = [
+        change
+        for change in all_changes("board2")
+        if (change.chart, change.old, change.new) == ("TranslateDecision", "CMD_ESTOP", "CMD_STOP")
+    ]
+    assert [change.at for change in alike] == ["block", "block#2"]
+    first, second = (digest(with_change(board, WrittenChange(*change.key)).system) for change in alike)
+    assert [first, second] == [digest(change.make()) for change in alike]
+    assert first != second
+    assert "(place 2)" in alike[1].text and "(place" not in alike[0].text
