@@ -55,14 +55,14 @@ class ReadAgain(Specialiser):
         made.save(path)
         self._model = read_simulink(path)
         known = {one.name: one for one in (*system.inputs.values(), *system.frozen, *system.written.values())}
-        self._inside = {name: _as(var, self._model[made.names[name]]) for name, var in known.items()}
+        self.inside = {name: _as(var, self._model[made.names[name]]) for name, var in known.items()}
         given = {name: _as(known[name], self._model[own]) for name, own in made.inputs.items()}
-        self._inside |= {name: expr for name, expr in given.items() if name in system.inputs}
-        self._active = dict(self._places(system, made))
+        self.inside |= {name: expr for name, expr in given.items() if name in system.inputs}
+        self.active = dict(self._places(system, made))
         given = {name: _declared(expr, self._model[made.inputs[name]]) for name, expr in given.items()}
         assumed = _Given(given, self).expr(system.assumed)
         if system.elapsed is not None:  # it has a unit, which nothing has in a file
-            self._inside[system.elapsed.name] = system.elapsed
+            self.inside[system.elapsed.name] = system.elapsed
             assumed = all_of(assumed, Apply(Op.EQ, (system.elapsed, given[system.elapsed.name]), Bool()))
         self.read = replace(
             self._model.system, name=system.name, place=system.place, step_ms=system.step_ms,
@@ -98,12 +98,12 @@ class ReadAgain(Specialiser):
         if isinstance(expr, Apply) and expr.op in (Op.EQ, Op.NE):
             for one, other in (expr.args, expr.args[::-1]):
                 if isinstance(one, Var) and isinstance(other, Const):
-                    found = self._active.get((one.name, other.value))
+                    found = self.active.get((one.name, other.value))
                     if found is not None:
                         return found if expr.op is Op.EQ else ~found
         if isinstance(expr, Var):
-            assert expr.name in self._inside, f"{expr.name} is not in the file"
-            return self._inside[expr.name]
+            assert expr.name in self.inside, f"{expr.name} is not in the file"
+            return self.inside[expr.name]
         return super()._expr(expr)
 
 
