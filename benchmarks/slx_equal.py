@@ -83,10 +83,12 @@ class Beside:
         self._drawn, self._read = lower(system), lower(again.read)
         own = (*self._drawn.variables, *self._drawn.temps)
         self._as_drawn = {v.name: replace(v, name=f"{v.name} as drawn") for v in own}
-        given = {v.name: self._again.inside[v.name] for v in (*self._drawn.inputs, *self._drawn.frozen)}
+        given = {v.name: again.inside[v.name] for v in self._drawn.inputs}
+        given |= {v.name: again.given[v.name] for v in self._drawn.frozen}  # kept in the first step only
         self._rename = _Renamed({**self._as_drawn, **given})
         self.of: dict[str, Expr] = {}
         self.unknown: list[str] = []
+        self.guessed: list[str] = []
         hidden: list[Var] = []
         for var in (v for v in self._drawn.variables if v not in dict(self._drawn.checks)):
             found = self._again.inside.get(var.name, self._location(var))
@@ -135,6 +137,7 @@ class Beside:
                 self.unknown.append(var.name)
                 continue
             taken.add(alike[0].name)
+            self.guessed.append(var.name)
             zero = Const(0, var.sort)
             self.of[var.name] = ite(self._again.expr(active), alike[0], zero) if path else alike[0]
 
@@ -219,6 +222,8 @@ def judged(beside: Beside, seconds: float) -> tuple[str, str]:
     joined, goals = beside.differing()
     answers = engines()["kinduction"].check(joined, goals, Limits(seconds=seconds), quiet)
     reached = [name for name, answer in answers.items() if isinstance(answer, Reached)]
+    if reached and beside.guessed:
+        return "not known", f"{', '.join(reached)}, or a guess is wrong: {', '.join(beside.guessed)}"
     if reached:
         return "differs", ", ".join(reached)
     left = [answer for answer in answers.values() if isinstance(answer, Open)]

@@ -60,6 +60,7 @@ class ReadAgain(Specialiser):
         self.inside |= {name: expr for name, expr in given.items() if name in system.inputs}
         self.active = dict(self._places(system, made))
         given = {name: _declared(expr, self._model[made.inputs[name]]) for name, expr in given.items()}
+        self.given = given
         assumed = _Given(given, self).expr(system.assumed)
         if system.elapsed is not None:  # it has a unit, which nothing has in a file
             self.inside[system.elapsed.name] = system.elapsed
