@@ -89,7 +89,8 @@ def written(table: str, noticed: Mapping[str, str]) -> str:
     """The table with the tests that have noticed its rules, by the names of these."""
     document = tomlkit.parse(table)
     for one in cast(AoT, document["rule"]):
-        if test := noticed.get(str(one["name"])):
+        test = noticed.get(str(one["name"]), "")
+        if "::" in test:  # else the tests did not run, or did not end
             one["noticed_by"] = test
     return tomlkit.dumps(document)
 
