@@ -4,13 +4,16 @@
 
 One step of the system as it is drawn is executed beside what is read of its file, from the state that is
 computed of the state of what is read; after it each variable must be what is computed then.  That it is, in
-every reachable state, k-induction proves with an inductive invariant.  Then every property has the verdict
-that it has on the system as drawn, however long that takes.  Which variable of the file is a timer of the
-system is guessed from random runs: a wrong guess proves nothing.  The exit code is 1 if something is found to
-differ.
+every reachable state, and that no condition under which what is read has no meaning ever holds, proves ABC
+with signal correspondence (C.A.J. van Eijk: Sequential Equivalence Checking Based on Structural Similarities,
+2000) where it is installed, and k-induction with an inductive invariant where it is not, or leaves something.
+Then every property has the verdict that it has on the system as drawn, however long that takes.  Which
+variable of the file is a timer of the system is guessed from random runs: a wrong guess proves nothing.  The
+exit code is 1 if something is found to differ.
 """
 
 import argparse
+import shutil
 import sys
 import tempfile
 from collections import Counter
@@ -21,11 +24,15 @@ from time import monotonic
 
 import numpy as np
 
+from benchmarks.measure import run
+from benchmarks.rivals import ABC
 from benchmarks.slx_verdicts import ReadAgain
 from rovercheck.checker.encode.cone import cone
 from rovercheck.checker.encode.simulate import Simulator
 from rovercheck.checker.encode.symbolic import transition
 from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.export import exporters
+from rovercheck.checker.export.problem import Bad, Problem
 from rovercheck.checker.results.verdict import Open, Reached
 from rovercheck.checker.system.arrays import ArrayProgram, Column, Columns
 from rovercheck.properties.catalogue import catalogue
@@ -33,7 +40,7 @@ from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.domain import Bool, boolean
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import FALSE, Apply, Const, Expr, Var, ite
+from rovercheck.spec_model.lang.expr import FALSE, Apply, Const, Expr, Var, any_of, ite
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.specialise import Specialiser
@@ -154,7 +161,10 @@ class Beside:
         return runs.run(runs.start(), TICKS).samples()
 
     def differing(self) -> tuple[TransitionSystem, list[Var]]:
-        """What is read of the file, and for each variable of the system whether it differs after a step."""
+        """What is read of the file, and for each variable of the system whether it differs after a step.
+
+        Behind these are the conditions under which what is read has no meaning.
+        """
         goals = {name: Var(f"{name} differs", boolean, 0) for name in self.of}
         before = [Assign(self._as_drawn[name], expr) for name, expr in self.of.items()]
         after = [
@@ -163,7 +173,8 @@ class Beside:
         ]
         step = (*before, *self._rename.step(self._drawn.step), *self._read.step, *after)
         own = (*self._read.variables, *goals.values())
-        return self._system_of(own, self._as_drawn.values(), step), list(goals.values())
+        meaningless = [one for one in self._read.variables if one.name in dict(self._read.checks)]
+        return self._system_of(own, self._as_drawn.values(), step), [*goals.values(), *meaningless]
 
     def begins_otherwise(self) -> list[str]:
         """The variables of the system that are not what is computed before the first step."""
@@ -207,18 +218,42 @@ def main(arguments: list[str]) -> int:
 
 
 def _compared(system: System, folder: Path, seconds: float) -> tuple[str, str]:
-    """Whether what is read of a file is the same as the system of which it was written, and why not."""
+    """Whether what is read of a file is the same as the system of which it was written, and why."""
     try:
         beside = Beside(system, ReadAgain(system, folder))
     except ModelError as error:
         return "refused", str(error).splitlines()[0]
-    return judged(beside, seconds)
+    return judged(beside, folder, seconds)
 
 
-def judged(beside: Beside, seconds: float) -> tuple[str, str]:
-    """Whether both are the same, ``not known`` in this time, or differ, with the variables that do."""
+def judged(beside: Beside, folder: Path, seconds: float) -> tuple[str, str]:
+    """Whether both are ``the same``, by what, ``not known``, or differ, with the variables that do."""
     if unknown := [*beside.unknown, *beside.begins_otherwise()]:
         return "not known", f"nothing is known of {', '.join(unknown)}"
+    if shutil.which(ABC) and by_correspondence(*beside.differing(), folder, seconds):
+        return "the same", "ABC"
+    return by_induction(beside, seconds)
+
+
+def by_correspondence(joined: TransitionSystem, goals: Sequence[Var], folder: Path, seconds: float) -> bool:
+    """Whether ABC proves that none of the goals is ever reached.
+
+    ``fold`` makes the constraint on inputs part of them, ``orpos`` one of all, and what ``scorr`` finds to be
+    equal is one signal in what ``pdr`` is asked.
+    """
+    some = Var("something differs", boolean, 0)
+    step = (*joined.step, Assign(some, any_of(*goals)))
+    asked = replace(joined, variables=(*joined.variables, some), step=step)
+    data = exporters()["aiger"].export(Problem("equal", asked, (Bad(some, "both differ"),)))
+    assert isinstance(data, bytes)
+    file = folder / "equal.aig"
+    file.write_bytes(data)
+    script = f"read_aiger {file}; fold; orpos; strash; scorr; pdr -T {seconds:.0f}"
+    return "Property proved" in run([ABC, "-q", script], 2 * seconds).text
+
+
+def by_induction(beside: Beside, seconds: float) -> tuple[str, str]:
+    """What k-induction says of it, each variable by itself."""
     joined, goals = beside.differing()
     answers = engines()["kinduction"].check(joined, goals, Limits(seconds=seconds), quiet)
     reached = [name for name, answer in answers.items() if isinstance(answer, Reached)]
@@ -227,7 +262,9 @@ def judged(beside: Beside, seconds: float) -> tuple[str, str]:
     if reached:
         return "differs", ", ".join(reached)
     left = [answer for answer in answers.values() if isinstance(answer, Open)]
-    return ("not known", f"{len(left)} of {len(goals)}: {left[0].reason}") if left else ("the same", "")
+    if left:
+        return "not known", f"{len(left)} of {len(goals)}: {left[0].reason}"
+    return "the same", "k-induction"
 
 
 if __name__ == "__main__":
