@@ -12,15 +12,15 @@ from rovercheck.checker.drawn.lower.domains import domains_path, read_domains
 from rovercheck.checker.model import SCXML, XSTATE, ForeignModel, beside_caller
 from rovercheck.checker.scxml.interpret import MachineRunner
 from rovercheck.checker.scxml.reader import read_scxml
-from rovercheck.checker.scxml.records import StateMachine
+from rovercheck.checker.scxml.records import StateMachine, carried_name
 from rovercheck.checker.scxml.system import LoweredMachine, lowered_machine
 from rovercheck.checker.scxml.xstate.bindings import bindings_path
 from rovercheck.checker.scxml.xstate.reader import read_xstate
 from rovercheck.checker.scxml.xstate.runner import runner_of
-from rovercheck.spec_model.lang.domain import Domain, Num
+from rovercheck.spec_model.lang.domain import Domain, Num, boolean
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Expr, any_of
+from rovercheck.spec_model.lang.expr import Expr, Var, any_of
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.place import Place, here
 from rovercheck.spec_model.lang.system import Note, System
@@ -32,7 +32,10 @@ RUNS, STEPS = 20, 50
 
 @dataclass(frozen=True)
 class MachineModel(ForeignModel):
-    """A machine.  ``model["motor"]`` is a datum, ``model["event"]`` the event of a step."""
+    """A machine.  ``model["motor"]`` is a datum, ``model["event"]`` the event of a step.
+
+    ``model["event.speed"]`` is what the event carries as ``_event.data.speed``.
+    """
 
     path: Path
     lowered: LoweredMachine
@@ -45,7 +48,8 @@ class MachineModel(ForeignModel):
     @property
     def names(self) -> Mapping[str, Expr]:
         """Everything that has a name."""
-        return {**self.lowered.data, "event": self.lowered.event}
+        carried = {var.name: var for var in self.lowered.carried.values()}
+        return {**self.lowered.data, "event": self.lowered.event, **carried}
 
     def __getitem__(self, name: str) -> Expr:
         """The formula of a name.  Raises ``ModelError`` for one that is not there."""
@@ -119,10 +123,15 @@ def machine_in(path: Path) -> StateMachine:
 def machine_model(path: Path, machine: StateMachine) -> MachineModel:
     """A machine that was read, with its domains.  Raises ``ModelError`` for what has no meaning here."""
     said = read_domains(domains_path(path))
-    for name in said.domains.keys() - machine.data.keys():
-        raise ModelError(f"{said.path}: {name} is no datum. {did_you_mean(name, machine.data)}")
-    for name in said.domains:
-        _fitting(said.path, name, said.domains[name], machine)
+    carried = {carried_name(name): kind for name, kind in machine.carried.items()}
+    known = {*machine.data, *carried}
+    for name, domain in said.domains.items():
+        if name not in known:
+            raise ModelError(f"{said.path}: {name} is no datum. {did_you_mean(name, known)}")
+        if name in machine.data:
+            _fitting(said.path, name, domain, machine.data[name])
+        elif carried[name] == "boolean" or not _whole(domain):
+            raise ModelError(f"{said.path}: {name} has a domain of whole numbers, or is a truth value.")
     try:
         made = lowered_machine(machine, str(path), said.domains)
     except RecursionError:
@@ -142,10 +151,12 @@ def machine_model(path: Path, machine: StateMachine) -> MachineModel:
     return MachineModel(path, replace(made, system=system))
 
 
-def _fitting(file: Path, name: str, domain: Domain, machine: StateMachine) -> None:
-    first = machine.data[name]
-    whole = isinstance(domain.sort, Num) and domain.sort.resolution == 1
-    if isinstance(first, bool) or not whole or first not in domain:
+def _whole(domain: Domain) -> bool:
+    return isinstance(domain.sort, Num) and domain.sort.resolution == 1
+
+
+def _fitting(file: Path, name: str, domain: Domain, first: bool | int) -> None:
+    if isinstance(first, bool) or not _whole(domain) or first not in domain:
         raise ModelError(
             f"{file}: {name} begins as {str(first).lower()}; a domain is of whole numbers, with this one."
         )
@@ -163,7 +174,8 @@ def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bo
         direct, system = runner_of(lowered.machine), Interpreter(lowered.system)
         for tick in range(1, STEPS + 1):
             guards = {one: random.random() < 0.5 for one in lowered.guards}
-            found = _step(lowered, direct, system, random.choice(events), guards)
+            event, carried = random.choice(events), _chosen(random, lowered.carried)
+            found = _step(lowered, direct, system, event, guards, carried)
             if found is None:
                 break
             steps += 1
@@ -174,16 +186,32 @@ def compared(lowered: LoweredMachine, seconds: float = SECONDS) -> tuple[str, bo
     return "", False, steps
 
 
+def _chosen(random: Random, among: Mapping[str, Var]) -> dict[str, bool | int]:
+    """What an event carries: often the ends of a domain."""
+    found: dict[str, bool | int] = {}
+    for name, var in among.items():
+        ends = [var.domain.low, var.domain.high]
+        raw = random.choice(ends) if random.random() < 0.3 else random.choice(var.domain.values)
+        found[name] = bool(raw) if var.domain is boolean else raw
+    return found
+
+
 def _step(
-    lowered: LoweredMachine, direct: MachineRunner, system: Interpreter, event: str, guards: dict[str, bool]
+    lowered: LoweredMachine,
+    direct: MachineRunner,
+    system: Interpreter,
+    event: str,
+    guards: dict[str, bool],
+    carried: dict[str, bool | int],
 ) -> tuple[str, bool] | None:
     """One step of both; nothing where neither gives it a meaning."""
     of_standard = of_system = ""
     try:
-        direct.step(event, guards)
+        direct.step(event, guards, carried)
     except DrawnFault as fault:
         of_standard = f"the algorithm says: {fault}"
     inputs = {lowered.guards[name].name: int(holds) for name, holds in guards.items()}
+    inputs |= {lowered.carried[name].name: int(value) for name, value in carried.items()}
     try:
         inputs["event"] = lowered.event.domain.raw(event or "none")
         system.step({name: raw for name, raw in inputs.items() if name in lowered.system.inputs})

@@ -3,7 +3,7 @@
 import re
 from fractions import Fraction
 
-from rovercheck.checker.scxml.expressions import kind_of, parsed_expression
+from rovercheck.checker.scxml.expressions import parsed_expression
 from rovercheck.checker.scxml.records import (
     AssignDatum,
     CancelEvent,
@@ -34,6 +34,7 @@ class ContentReader:
         self.data: dict[str, bool | int] = {}
         self.sends: list[SendEvent] = []
         self.raised: set[str] = set()
+        self.carried: dict[str, ValueKind] = {}
         self.states: frozenset[str] = frozenset()
 
     def fault(self, element: XmlElement, what: str) -> None:
@@ -75,17 +76,13 @@ class ContentReader:
         """The condition of a transition or a branch."""
         return self._expression(element, "cond", "boolean")
 
-    def _expression(
-        self, element: XmlElement, attribute: str, kind: ValueKind | None = None
-    ) -> ScxmlExpression | None:
+    def _expression(self, element: XmlElement, attribute: str, kind: ValueKind) -> ScxmlExpression | None:
+        text = element.attributes.get(attribute, "")
         try:
-            found = parsed_expression(element.attributes.get(attribute, ""), self.kinds, self.states)
-            if kind is not None and kind_of(found) != kind:
-                raise ModelError(f"{brief(element.attributes[attribute])} is no {kind} value")
+            return parsed_expression(text, self.kinds, self.states, kind, self.carried)
         except ModelError as error:
             self.fault(element, str(error))
             return None
-        return found
 
     def actions(self, element: XmlElement) -> tuple[Executable, ...]:
         """The actions in an element, in their order."""

@@ -2,10 +2,13 @@
 
 import re
 from collections.abc import Collection, Mapping
+from typing import Literal
 
 from rovercheck.checker.scxml.records import (
+    EVENT_DATA,
     Constant,
     DatumName,
+    EventDatum,
     InState,
     Operation,
     ScxmlExpression,
@@ -20,36 +23,66 @@ DEEPEST = 50
 LONGEST = 4000
 """Letters of an expression."""
 _TOKEN = re.compile(
-    r"\s*(?:(\d+(?![\w.]))|(Math\.(?:abs|floor|max|min)\b|[A-Za-z_$][\w$]*)|('[^'\\]*'|\"[^\"\\]*\")|(===|!==|==|!=|<=|>=|&&|\|\||[-+*/%<>!?:(),]))"
+    r"\s*(?:(\d+(?![\w.]))|(Math\.(?:abs|floor|max|min)\b|_event\.data\.[A-Za-z_$][\w$]*|[A-Za-z_$][\w$]*)|('[^'\\]*'|\"[^\"\\]*\")|(===|!==|==|!=|<=|>=|&&|\|\||[-+*/%<>!?:(),]))"
 )
 _BINARY = (("||",), ("&&",), ("===", "!==", "==", "!="), ("<", "<=", ">", ">="), ("+", "-"), ("*", "%"))
 _FUNCTIONS: Mapping[str, int] = {"Math.abs": 1, "Math.floor": 1, "Math.max": 2, "Math.min": 2}
 """Functions of numbers, and of how many; ``Math.floor`` is that of a quotient."""
 SUBSET = (
-    "Written here are whole numbers, true, false, data, In('state'), + - *, % 4, Math.floor(... / 4), "
-    "Math.min, Math.max, Math.abs, comparisons, ! && || and ? :"
+    "Written here are whole numbers, true, false, data, {carried}In('state'), + - *, % 4, "
+    "Math.floor(... / 4), Math.min, Math.max, Math.abs, comparisons, ! && || and ? :"
 )
 
 
-def kind_of(one: ScxmlExpression) -> ValueKind:
-    """Whether a value is a truth value or a whole number."""
+def _kind_of(one: ScxmlExpression) -> ValueKind | Literal[""]:
+    """Whether a value is a truth value or a whole number; of data of events their use says it."""
     match one:
         case Constant(value):
             return "boolean" if isinstance(value, bool) else "integer"
         case DatumName(_, kind) | Operation(_, _, kind):
             return kind
+        case EventDatum(_, known):
+            return known
     return "boolean"
 
 
-def parsed_expression(text: str, data: Mapping[str, ValueKind], states: Collection[str]) -> ScxmlExpression:
-    """An expression of data and states.  Raises ``ModelError`` for what is outside of the exact part."""
-    return _Parser(text, data, states).whole()
+def parsed_expression(
+    text: str,
+    data: Mapping[str, ValueKind],
+    states: Collection[str],
+    kind: ValueKind | None = None,
+    carried: dict[str, ValueKind] | None = None,
+) -> ScxmlExpression:
+    """An expression of data and states, and of what events carry, to which its kinds are added as it says.
+
+    Without ``carried`` nothing of an event can be read.  Raises ``ModelError`` for what is outside of the
+    exact part, and for a value of another kind.
+    """
+    parser = _Parser(text, data, states, carried)
+    found = parser.whole()
+    if kind is None:
+        return found
+    if isinstance(found, EventDatum):
+        return parser.carries(found, kind)
+    if _kind_of(found) != kind:
+        raise ModelError(f"{brief(text)} is no {kind} value")
+    return found
 
 
 class _Parser:
-    def __init__(self, text: str, data: Mapping[str, ValueKind], states: Collection[str]) -> None:
-        self.text, self.data, self.states = text.strip(), data, states
+    def __init__(
+        self,
+        text: str,
+        data: Mapping[str, ValueKind],
+        states: Collection[str],
+        carried: dict[str, ValueKind] | None,
+    ) -> None:
+        self.text, self.data, self.states, self.carried = text.strip(), data, states, carried
         self.tokens, self.at, self.depth = list(self._tokens()), 0, 0
+
+    @property
+    def _subset(self) -> str:
+        return SUBSET.format(carried="" if self.carried is None else f"{EVENT_DATA}name, ")
 
     def _tokens(self) -> list[str]:
         found, at = [], 0
@@ -60,7 +93,7 @@ class _Parser:
             if one is None:
                 raise ModelError(
                     f"`{brief(self.text)}` has {brief(self.text[at:].strip()[:10])}, which has no exact "
-                    f"meaning here. {SUBSET}."
+                    f"meaning here. {self._subset}."
                 )
             found.append(one[0].strip())
             at = one.end()
@@ -75,8 +108,10 @@ class _Parser:
     def _unexpected(self) -> ModelError:
         what = brief(self.tokens[self.at]) if self.at < len(self.tokens) else "its end"
         if what == brief("/"):
-            return ModelError(f"`{brief(self.text)}` has {what}, which has no exact meaning here. {SUBSET}.")
-        return ModelError(f"`{brief(self.text)}`: {what} is not expected there. {SUBSET}.")
+            return ModelError(
+                f"`{brief(self.text)}` has {what}, which has no exact meaning here. {self._subset}."
+            )
+        return ModelError(f"`{brief(self.text)}`: {what} is not expected there. {self._subset}.")
 
     def _take(self, *wanted: str) -> str:
         if self.at < len(self.tokens) and self.tokens[self.at] in wanted:
@@ -100,9 +135,8 @@ class _Parser:
             then = self._choice()
             self._need(":")
             other = self._choice()
-            if kind_of(then) != kind_of(other):
-                raise ModelError(f"`{brief(self.text)}`: both values of ? : must be of one kind.")
-            found = Operation("?", (self._of(found, "boolean"), then, other), kind_of(then))
+            then, other, kind = self._alike(then, other, ": both values of ? : must be of one kind")
+            found = Operation("?", (self._of(found, "boolean"), then, other), kind)
         self.depth -= 1
         return found
 
@@ -118,19 +152,45 @@ class _Parser:
         if operator in ("&&", "||"):
             return Operation(operator, (self._of(left, "boolean"), self._of(right, "boolean")), "boolean")
         if operator in ("==", "===", "!=", "!=="):
-            if kind_of(left) != kind_of(right):
-                raise ModelError(
-                    f"`{brief(self.text)}` compares a truth value with a number, which ECMAScript converts. "
-                    "Compare values of one kind."
-                )
+            unlike = (
+                " compares a truth value with a number, which ECMAScript converts. Compare values of one kind"
+            )
+            left, right, _ = self._alike(left, right, unlike)
             return Operation(operator[:2], (left, right), "boolean")
         if operator == "%":
             return self._divided("%", left, right)
         kind: ValueKind = "integer" if operator in ("+", "-", "*") else "boolean"
         return Operation(operator, (self._of(left, "integer"), self._of(right, "integer")), kind)
 
+    def _alike(
+        self, one: ScxmlExpression, other: ScxmlExpression, unlike: str
+    ) -> tuple[ScxmlExpression, ScxmlExpression, ValueKind]:
+        """Two values of one kind, and which it is."""
+        kind = _kind_of(one) or _kind_of(other)
+        if not kind:
+            assert isinstance(one, EventDatum)
+            raise ModelError(
+                f"`{brief(self.text)}`: nothing says whether {brief(one.written)} is a number or a truth "
+                "value. Assign it to a datum, and write that."
+            )
+        if _kind_of(other) not in ("", kind):
+            raise ModelError(f"`{brief(self.text)}`{unlike}.")
+        return self._of(one, kind), self._of(other, kind), kind
+
+    def carries(self, one: EventDatum, kind: ValueKind) -> EventDatum:
+        """What an event carries, of the kind that its use says.  Raises ``ModelError`` for another one."""
+        assert self.carried is not None
+        if self.carried.setdefault(one.name, kind) != kind:
+            raise ModelError(
+                f"`{brief(self.text)}`: {brief(one.written)} is a number in one place and a truth value in "
+                "another. Give both a name of their own."
+            )
+        return EventDatum(one.name, kind)
+
     def _of(self, one: ScxmlExpression, kind: ValueKind) -> ScxmlExpression:
-        if kind_of(one) != kind:
+        if isinstance(one, EventDatum):
+            return self.carries(one, kind)
+        if _kind_of(one) != kind:
             other = "a number" if kind == "boolean" else "a truth value"
             raise ModelError(
                 f"`{brief(self.text)}` has {other} where another kind is expected. "
@@ -170,6 +230,9 @@ class _Parser:
             return Constant(word == "true")
         if word in _FUNCTIONS:
             return self._function(word)
+        if word.startswith(EVENT_DATA) and self.carried is not None:
+            name = word.removeprefix(EVENT_DATA)
+            return EventDatum(name, self.carried.get(name, ""))
         return self._in() if word == "In" else self._datum(word)
 
     def _divided(self, operator: str, left: ScxmlExpression, by: ScxmlExpression) -> ScxmlExpression:
@@ -212,4 +275,4 @@ class _Parser:
         return DatumName(word, self.data[word])
 
 
-__all__ = ["SUBSET", "kind_of", "parsed_expression"]
+__all__ = ["parsed_expression"]

@@ -4,6 +4,7 @@ from rovercheck.checker.drawn.lower.program import ProgramWriter
 from rovercheck.checker.scxml.records import (
     Constant,
     DatumName,
+    EventDatum,
     FreeGuard,
     InState,
     MachineState,
@@ -50,6 +51,8 @@ class FormulaWriter:
                 return const(value)
             case DatumName(name):
                 return self.data[name]
+            case EventDatum(name):
+                return self.view.carried[name]
             case InState(id):
                 return self.active[self.machine.named[id]]
             case FreeGuard(name):

@@ -12,6 +12,7 @@ from rovercheck.checker.scxml.records import (
     Choose,
     Constant,
     DatumName,
+    EventDatum,
     Executable,
     FreeGuard,
     InState,
@@ -51,19 +52,25 @@ class MachineRunner:
         self.fired: list[MachineTransition] = []
         self.ran: set[str] = set()
         self._guards: Mapping[str, bool] = {}
+        self._carried: Mapping[str, Value] = {}
         self._past: dict[str, list[MachineState]] = {}
         self._internal: list[str] = []
         self._external: list[str] = []
         self._waiting: dict[int, int] = {}
         self._begun, self._running = False, True
 
-    def step(self, event: str = "", guards: Mapping[str, bool] | None = None) -> None:
+    def step(
+        self,
+        event: str = "",
+        guards: Mapping[str, bool] | None = None,
+        carried: Mapping[str, Value] | None = None,
+    ) -> None:
         """One step: everything that follows from an event; an empty one lets time pass.
 
-        The first step enters the machine before it takes its event.  ``guards`` are those that are known by
-        name only, and hold in this step; the others do not.
+        The first step enters the machine before it takes its event, with the data that it has ``carried``.
+        ``guards`` are those that are known by name only, and hold in this step; the others do not.
         """
-        self.fired, self.ran, self._guards = [], set(), guards or {}
+        self.fired, self.ran, self._guards, self._carried = [], set(), guards or {}, carried or {}
         if not self._running:
             return
         begun, self._begun = self._begun, True
@@ -305,6 +312,8 @@ class MachineRunner:
                 return value
             case DatumName(name):
                 return self.data[name]
+            case EventDatum(name):
+                return self._carried[name]
             case InState(id):
                 return any(state.id == id for state in self.active)
             case FreeGuard(name):

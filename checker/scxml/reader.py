@@ -1,7 +1,8 @@
 """Files of SCXML: states, transitions and executable content, or what has no meaning here, with its line."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import gcd
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from rovercheck.checker.scxml.records import (
     StateMachine,
     matches,
 )
+from rovercheck.checker.scxml.walk import event_data
 from rovercheck.checker.simulink.xml import XmlElement, parsed
 from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean
 
@@ -86,10 +88,12 @@ class _Reader:
         offered = sorted({OTHER if d == "*" else d for d in waited} - own)
         offered = [one for one in offered if not one.startswith(("done.", "error"))]
         internal = sorted(one for one in own if any(matches(d, one) for d in waited))
+        self._check_event_data(internal)
+        self._stop()
         return StateMachine(
             re.sub(r"\W+", "_", name).strip("_") or "Machine", top,
             tuple(self.states.values()), self.content.data, tuple(self.content.sends), tuple(offered),
-            tuple(internal), gcd(*(one.delay for one in self.content.sends)),
+            tuple(internal), gcd(*(one.delay for one in self.content.sends)), carried=self.content.carried,
         )  # fmt: skip
 
     def _fault(self, element: XmlElement, what: str) -> None:
@@ -226,6 +230,22 @@ class _Reader:
             for transition in state.transitions:
                 self._together(element, transition.targets)
         self._cycles()
+
+    def _check_event_data(self, internal: Sequence[str]) -> None:
+        """Data of events are read where the event can only be one from outside."""
+        say = "Assign it to a datum in the transition of its event"
+        for state, element in self.elements:
+            begins = () if state.initial is None else state.initial.actions
+            for one in event_data([a for h in (*state.on_entry, *state.on_exit, begins) for a in h]):
+                where = f"where {state.id or 'the machine'} begins or ends, whatever the event is"
+                self._fault(element, f"{one.written} {where}. {say}")
+            for transition in state.transitions:
+                own = [one for one in internal if any(matches(d, one) for d in transition.events)]
+                if own or not transition.events:
+                    at = replace(element, tag="transition", line=transition.line)
+                    for one in event_data(transition.actions, transition.condition):
+                        where = f"where the event may be {own[0] if own else 'any'}, which carries nothing"
+                        self._fault(at, f"{one.written} {where}. {say}")
 
     def _shallow(self, state: MachineState, holder: MachineState, element: XmlElement) -> None:
         assert state.initial is not None

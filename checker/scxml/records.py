@@ -13,6 +13,8 @@ MOST_MICROSTEPS = 12
 more is told in place of a verdict."""
 MOST_WAITING = 6
 """Events that wait in each of the two queues."""
+EVENT_DATA = "_event.data."
+"""What the names of data of events begin with."""
 OTHER = "(other)"
 """An event that only ``*`` matches."""
 
@@ -30,6 +32,19 @@ class DatumName:
 
     name: str
     kind: ValueKind
+
+
+@dataclass(frozen=True)
+class EventDatum:
+    """``_event.data.name``: what the event of a step carries; ``kind`` is empty until its use says it."""
+
+    name: str
+    kind: ValueKind | Literal[""]
+
+    @property
+    def written(self) -> str:
+        """As it stands in a file."""
+        return f"{EVENT_DATA}{self.name}"
 
 
 @dataclass(frozen=True)
@@ -55,7 +70,7 @@ class FreeGuard:
     name: str
 
 
-ScxmlExpression = Union[Constant, DatumName, InState, Operation, FreeGuard]
+ScxmlExpression = Union[Constant, DatumName, EventDatum, InState, Operation, FreeGuard]
 
 
 @dataclass(frozen=True)
@@ -197,11 +212,18 @@ class StateMachine:
     """What people call the language it is written in."""
     notes: tuple[str, ...] = ()
     """What is read in another way than it is written."""
+    carried: Mapping[str, ValueKind] = field(default_factory=dict)
+    """Data that events from outside carry, with their kinds."""
 
     @property
     def named(self) -> Mapping[str, MachineState]:
         """The states by their ids."""
         return {one.id: one for one in self.states}
+
+
+def carried_name(name: str) -> str:
+    """The name of what an event carries, among those of a model."""
+    return f"event.{name}"
 
 
 def matches(descriptor: str, event: str) -> bool:
@@ -214,9 +236,9 @@ def matches(descriptor: str, event: str) -> bool:
 
 
 __all__ = [
-    "MOST_MICROSTEPS", "MOST_WAITING", "OTHER", "AssignDatum", "CancelEvent", "Choose",
-    "Constant", "DatumName", "Executable", "FreeGuard", "InState",
+    "EVENT_DATA", "MOST_MICROSTEPS", "MOST_WAITING", "OTHER", "AssignDatum", "CancelEvent", "Choose",
+    "Constant", "DatumName", "EventDatum", "Executable", "FreeGuard", "InState",
     "MachineState", "MachineTransition", "NamedAction", "Operation", "RaiseEvent", "Rules",
     "ScxmlExpression", "SendEvent",
-    "StateKind", "StateMachine", "ValueKind", "matches",
+    "StateKind", "StateMachine", "ValueKind", "carried_name", "matches",
 ]  # fmt: skip

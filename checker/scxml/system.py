@@ -1,19 +1,13 @@
 """A machine as a system: its event an input, its data in their domains."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from rovercheck.checker.drawn.lower.program import ProgramWriter, TooManyStatements
 from rovercheck.checker.scxml.lower import MachineWriter
-from rovercheck.checker.scxml.records import (
-    AssignDatum,
-    Choose,
-    Constant,
-    Executable,
-    ScxmlExpression,
-    StateMachine,
-)
+from rovercheck.checker.scxml.records import AssignDatum, Constant, StateMachine, carried_name
 from rovercheck.checker.scxml.view import NONE, MachineView
+from rovercheck.checker.scxml.walk import every_action
 from rovercheck.checker.scxml.xstate.lower import XstateWriter
 from rovercheck.checker.scxml.xstate.lower_4 import Xstate4Writer
 from rovercheck.spec_model.lang.domain import Domain, boolean, chosen, enumeration
@@ -29,13 +23,15 @@ _WRITERS = {("scxml", 5): MachineWriter, ("xstate", 5): XstateWriter, ("xstate",
 class LoweredMachine:
     """A machine as a system.  ``event`` is its input, ``data`` its data by name.
 
-    ``guards`` are inputs, and ``ran`` flags of the last step, of what is known by name only.
+    ``carried`` are inputs, what the event carries; ``guards`` are inputs, and ``ran`` flags of the last step,
+    of what is known by name only.
     """
 
     machine: StateMachine
     system: System
     event: Var
     data: Mapping[str, Var]
+    carried: Mapping[str, Var]
     view: MachineView
     guards: Mapping[str, Var]
     ran: Mapping[str, Var]
@@ -44,7 +40,8 @@ class LoweredMachine:
 def lowered_machine(machine: StateMachine, file: str, domains: Mapping[str, Domain]) -> LoweredMachine:
     """The system of a machine.  Raises ``ModelError`` for data without a domain, and too long a step."""
     data = {name: _datum(machine, name, first, domains) for name, first in machine.data.items()}
-    view, writer = MachineView(machine, file), ProgramWriter(machine.name)
+    carried = {name: _carried(machine, name, domains) for name in machine.carried}
+    view, writer = MachineView(machine, file, carried), ProgramWriter(machine.name)
     event = Var("event", enumeration("Event", [NONE, *machine.offered]), 0, "the event of a step, or none")
     written = _WRITERS[machine.rules, machine.version](machine, view, data, writer)
     try:
@@ -56,7 +53,7 @@ def lowered_machine(machine: StateMachine, file: str, domains: Mapping[str, Doma
         machine.name, view.made(program), text=f"The machine {machine.name}, read from {file}.",
         notes=[*_notes(machine), *machine.notes], tick_ms=machine.tick or 1,
     )  # fmt: skip
-    return LoweredMachine(machine, system, event, data, view, written.guards, written.ran)
+    return LoweredMachine(machine, system, event, data, carried, view, written.guards, written.ran)
 
 
 def _notes(machine: StateMachine) -> Iterator[str]:
@@ -65,6 +62,8 @@ def _notes(machine: StateMachine) -> Iterator[str]:
             f"A step without an event lets {machine.tick} ms pass; steps with an event take no time, and are "
             "counted all the same where a length of time is told."
         )
+    if machine.carried:
+        yield f"Each event from outside carries {', '.join(machine.carried)} where that is read."
     own = sorted({one.event for one in machine.sends} | set(machine.internal))
     own = [one for one in own if not one.startswith(("done.", "xstate."))]
     if own:
@@ -74,6 +73,18 @@ def _notes(machine: StateMachine) -> Iterator[str]:
 def _datum(machine: StateMachine, name: str, first: bool | int, domains: Mapping[str, Domain]) -> Var:
     domain = domains.get(name) or _domain(machine, name, first)
     return Var(name, domain, domain.raw(first), f"datum of {machine.name}")
+
+
+def _carried(machine: StateMachine, name: str, domains: Mapping[str, Domain]) -> Var:
+    own, said = carried_name(name), f"what the event of a step carries as {name}"
+    if machine.carried[name] == "boolean":
+        return Var(own, boolean, 0, said)
+    if own not in domains:
+        raise ModelError(
+            f'no domain is given for {own}, which events carry. Write "{own}" = {{ low = 0, high = 9 }} '
+            "below [domains] in the file NAME.domains.toml beside the machine"
+        )
+    return Var(own, domains[own], domains[own].low, said)
 
 
 def _domain(machine: StateMachine, name: str, first: bool | int) -> Domain:
@@ -91,30 +102,4 @@ def _domain(machine: StateMachine, name: str, first: bool | int) -> Domain:
     return chosen(values)
 
 
-def every_action(machine: StateMachine) -> Iterator[Executable]:
-    """All actions of a machine."""
-    for state in (machine.root, *machine.states):
-        for handler in (*state.on_entry, *state.on_exit):
-            yield from _each(handler)
-        for one in (*state.transitions, *([state.initial] if state.initial else [])):
-            yield from _each(one.actions)
-
-
-def every_condition(machine: StateMachine) -> Iterator[ScxmlExpression]:
-    """All conditions of a machine, of transitions and of branches."""
-    for state in machine.states:
-        yield from (one.condition for one in state.transitions if one.condition is not None)
-    for action in every_action(machine):
-        if isinstance(action, Choose):
-            yield from (condition for condition, _ in action.branches if condition is not None)
-
-
-def _each(actions: Sequence[Executable]) -> Iterator[Executable]:
-    for one in actions:
-        yield one
-        if isinstance(one, Choose):
-            for _, inner in one.branches:
-                yield from _each(inner)
-
-
-__all__ = ["LoweredMachine", "every_action", "every_condition", "lowered_machine"]
+__all__ = ["LoweredMachine", "lowered_machine"]

@@ -1,6 +1,7 @@
 """A machine as a chart that a person sees: its states, which are active, its events, what history keeps."""
 
 import re
+from collections.abc import Mapping
 
 from rovercheck.checker.scxml.past import PastVariables
 from rovercheck.checker.scxml.records import MachineState, MachineTransition, StateMachine
@@ -20,8 +21,8 @@ NONE = "none"
 class MachineView:
     """The names and variables of what is in a machine."""
 
-    def __init__(self, machine: StateMachine, file: str) -> None:
-        self.machine, self._file = machine, file
+    def __init__(self, machine: StateMachine, file: str, carried: Mapping[str, Var]) -> None:
+        self.machine, self._file, self.carried = machine, file, carried
         self.paths: dict[MachineState, Path] = {machine.root: ()}
         used: set[str] = set()
         for one in machine.states:

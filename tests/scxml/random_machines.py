@@ -14,11 +14,17 @@ from rovercheck.spec_model.lang.interpret import Interpreter
 
 EVENTS = ("a", "a.b", "c", "d")
 OWN = ("i", "i.j", "k")
+CARRIED_CONDITIONS = (' cond="_event.data.n &gt; x"', ' cond="_event.data.t"', ' cond="1 == _event.data.n"')
+CARRIED_ACTIONS = (
+    '<assign location="x" expr="_event.data.n"/>', '<assign location="b" expr="b ? _event.data.t : !b"/>',
+    '<if cond="_event.data.n &lt; 2"><assign location="b" expr="_event.data.t != b"/></if>',
+)  # fmt: skip
 
 
 class _Writer:
-    def __init__(self, random: Random, timed: bool) -> None:
-        self.random, self.timed, self.ids, self.shape = random, timed, list[str](), dict[str, list[str]]()
+    def __init__(self, random: Random, timed: bool, carrying: bool) -> None:
+        self.random, self.timed, self.carrying = random, timed, carrying
+        self.ids, self.shape = list[str](), dict[str, list[str]]()
         self.kinds: dict[str, str] = {}
         self.parents: dict[str, str] = {}
         self.sends = 0
@@ -83,7 +89,11 @@ class _Writer:
             target = f' target="{" ".join(picked)}"'
         internal = ' type="internal"' if self.random.random() < 0.3 else ""
         word = "" if eventless else f' event="{event}"'
-        return f"<transition{word}{condition}{target}{internal}>{self.actions()}</transition>"
+        actions = self.actions()
+        if self.carrying and not eventless and event in (*EVENTS, "a.*", "a c"):
+            condition = self.random.choice((condition, *CARRIED_CONDITIONS))
+            actions += self.random.choice(("", *CARRIED_ACTIONS))
+        return f"<transition{word}{condition}{target}{internal}>{actions}</transition>"
 
     def state(self, id: str) -> str:
         kind = self.kinds[id]
@@ -103,10 +113,10 @@ class _Writer:
         return f'<{kind} id="{id}">{handlers}{moves}{body}</{kind}>'
 
 
-def random_machine(seed: int, timed: bool = True) -> str:
-    """A machine of up to some twenty states."""
+def random_machine(seed: int, timed: bool = True, *, carrying: bool = False) -> str:
+    """A machine of up to some twenty states, of which the events from outside may carry data."""
     while True:
-        made = _Writer(Random(seed), timed)
+        made = _Writer(Random(seed), timed, carrying)
         made.plan("", 0)
         if len(made.ids) <= 24:
             break
@@ -119,7 +129,8 @@ def random_machine(seed: int, timed: bool = True) -> str:
 
 def lowered(text: str) -> LoweredMachine:
     """A random machine as a system."""
-    return lowered_machine(machine_of(text.encode(), "random.scxml"), "random.scxml", {"x": integer(0, 3)})
+    domains = {"x": integer(0, 3), "event.n": integer(0, 3)}
+    return lowered_machine(machine_of(text.encode(), "random.scxml"), "random.scxml", domains)
 
 
 def inputs(found: Sequence[str], random: Random, steps: int) -> Iterator[str]:
@@ -131,15 +142,17 @@ def inputs(found: Sequence[str], random: Random, steps: int) -> Iterator[str]:
 def differences(one: LoweredMachine, events: Sequence[str]) -> str:
     """Where the two readings differ first; empty where they agree."""
     [chart] = one.system.charts
-    direct, system = MachineRunner(one.machine), Interpreter(one.system)
+    direct, system, random = MachineRunner(one.machine), Interpreter(one.system), Random(len(events))
     for number, event in enumerate(events, start=1):
-        said = ["", ""]
+        said, carried = ["", ""], {"n": random.randrange(4), "t": random.random() < 0.5}
         try:
-            direct.step(event)
+            direct.step(event, carried=carried)
         except DrawnFault as fault:
             said[0] = str(fault)
         try:
-            system.step({"event": one.event.domain.raw(event or "none")})
+            given = {f"event.{name}": int(value) for name, value in carried.items()}
+            given["event"] = one.event.domain.raw(event or "none")
+            system.step({name: raw for name, raw in given.items() if name in one.system.inputs})
         except ModelError as error:
             said[1] = str(error)
         if said[0] and said[1]:

@@ -40,6 +40,17 @@ def test_both_readings_of_random_machines_agree(seed: int) -> None:
     assert differences(one, list(inputs(one.machine.offered, Random(seed), 20))) == ""
 
 
+@pytest.mark.parametrize("seed", range(MANY))
+def test_both_readings_of_random_machines_agree_on_what_events_carry(seed: int) -> None:
+    one = lowered(random_machine(seed, carrying=True))
+    assert differences(one, list(inputs(one.machine.offered, Random(seed), 20))) == ""
+
+
+def test_most_random_machines_read_what_events_carry() -> None:
+    texts = [random_machine(seed, carrying=True) for seed in range(MANY)]
+    assert sum("_event.data" in text for text in texts) > MANY // 2
+
+
 # --- the standard ------------------------------------------------------------------------------------------
 
 REGIONS = machine(

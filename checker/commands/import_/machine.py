@@ -56,6 +56,8 @@ def _head(machine: StateMachine) -> Iterator[str]:
     ]  # fmt: skip
     yield f"{machine.name}: {machine.format}, {', '.join(parts)}."
     yield f"Events from outside: {', '.join(machine.offered) or 'none'}."
+    if machine.carried:
+        yield f"They carry: {', '.join(machine.carried)}."
     if machine.internal:
         yield f"Events of its own: {', '.join(machine.internal)}."
     if machine.guards:

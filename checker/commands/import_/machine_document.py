@@ -7,7 +7,13 @@ from typing import Any, Literal
 from typing_extensions import TypedDict
 
 from rovercheck.checker.results.exit_code import Exit
-from rovercheck.checker.scxml.records import MachineState, MachineTransition, StateKind, StateMachine
+from rovercheck.checker.scxml.records import (
+    MachineState,
+    MachineTransition,
+    StateKind,
+    StateMachine,
+    ValueKind,
+)
 
 
 @dataclass(frozen=True)
@@ -60,6 +66,8 @@ class MachineDocument(TypedDict):
     """First values."""
     events: Sequence[str]
     """From outside."""
+    event_data: Mapping[str, ValueKind]
+    """What events from outside carry, with their kinds."""
     own_events: Sequence[str]
     """That the machine sends itself."""
     guards: Sequence[str]
@@ -89,6 +97,7 @@ def machine_document(machine: StateMachine, report: LoweredMachineReport, code: 
         "transitions": [_transition(t) for one in machine.states for t in one.transitions],
         "data": dict(machine.data),
         "events": list(machine.offered),
+        "event_data": dict(machine.carried),
         "own_events": list(machine.internal),
         "guards": list(machine.guards),
         "actions": list(machine.actions),

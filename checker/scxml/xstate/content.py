@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from rovercheck.checker.io.json_lines import JsonValue
-from rovercheck.checker.scxml.expressions import kind_of, parsed_expression
+from rovercheck.checker.scxml.expressions import parsed_expression
 from rovercheck.checker.scxml.records import (
     AssignDatum,
     DatumName,
@@ -140,13 +140,10 @@ class XstateContent:
 
     def _expression(self, what: str, text: str, kind: ValueKind) -> ScxmlExpression | None:
         try:
-            found = parsed_expression(text, self.kinds, self.states)
-            if kind_of(found) != kind:
-                raise ModelError(f"{brief(text)} is no {kind} value")
+            return parsed_expression(text, self.kinds, self.states, kind)
         except ModelError as error:
             self._bound_fault(f"{what}: {error}")
             return None
-        return found
 
     def _bound_fault(self, what: str) -> None:
         said = what if what.endswith((".", "?")) else f"{what}."
