@@ -46,6 +46,7 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.words import minimum
 from rovercheck.spec_model.rover import systems
 
 LANES, TICKS = 64, 600
@@ -136,7 +137,11 @@ class Beside:
             if path:
                 [found] = ArrayProgram([self._rename.expr(active)])(at)
                 on &= found
-            alike = [v for v in self._read.variables if self._fits(v, var) and _same(at[v.name], values, on)]
+            high = var.domain.high  # where the one counts no further, the other may
+            alike = [
+                v for v in self._read.variables
+                if self._fits(v, var) and _same(np.minimum(at[v.name], high), values, on)
+            ]  # fmt: skip
             inside = ".".join(path)
             size = len(var.domain)
             alike.sort(key=lambda v: (inside not in v.name, v.name in taken, len(v.domain) != size))
@@ -145,8 +150,9 @@ class Beside:
                 continue
             taken.add(alike[0].name)
             self.guessed.append(var.name)
-            zero = Const(0, var.sort)
-            self.of[var.name] = ite(self._again.expr(active), alike[0], zero) if path else alike[0]
+            zero, counter = Const(0, var.sort), alike[0]
+            one = minimum(counter, high) if counter.domain.high > high else counter
+            self.of[var.name] = ite(self._again.expr(active), one, zero) if path else one
 
     @staticmethod
     def _fits(one: Var, other: Var) -> bool:

@@ -7,6 +7,7 @@ import pytest
 from rovercheck import check, scxml_model
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, Verdict, Violated
 from rovercheck.checker.scxml.interpret import MachineRunner
 from rovercheck.checker.scxml.reader import machine_of
@@ -55,6 +56,7 @@ def test_a_property_of_what_an_event_carries(tmp_path: Path) -> None:
     found = verdicts(file, ABOVE="(m['x'] == 0) | (m['x'] > 50)", BELOW="m['x'] < 60")
     below = found["BELOW"]
     assert isinstance(found["ABOVE"], Proved) and isinstance(below, Violated)
+    assert isinstance(below.because, Trace)
     assert below.because.ticks[-1].inputs["event.value"] == 60
 
 
