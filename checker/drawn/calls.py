@@ -62,13 +62,14 @@ def function_calls(blocks: Mapping[str, DrawnBlock], feeds: Feeds) -> dict[Port,
             calls = found.setdefault(port, {})
             if turn in calls:
                 told = blocks[calls[turn].target]
-                raise DrawnFault(f"a function call leads to {_name(told)} and {_name(block)}: {EACH}")
+                raise DrawnFault(f"a function call leads to {told.shown_path} and {block.shown_path}: {EACH}")
             calls[turn] = FunctionCall(block.id, event)
             callers.add(port[0])
         if len(callers) > 1:
-            told_ = " and ".join(_name(blocks[one]) for one in sorted(callers))
+            told_ = " and ".join(blocks[one].shown_path for one in sorted(callers))
             raise DrawnFault(
-                f"the block {_name(block)} is called by {told_}, in an order that is not drawn: let one call"
+                f"the block {block.shown_path} is called by {told_}, in an order that is not drawn: let one "
+                "call"
             )
     _refuse_other_ends(blocks, feeds)
     made = {port: tuple(calls[turn] for turn in sorted(calls)) for port, calls in found.items()}
@@ -105,7 +106,9 @@ def _before_splits(
     while (block := blocks.get(port[0])) is not None and block.kind == SPLIT:
         source = feeds.get((block.id, "1"))
         if source is None or len(way) > len(blocks):
-            raise DrawnFault(f"no function call comes into {_name(block)}: connect one, or delete the block")
+            raise DrawnFault(
+                f"no function call comes into {block.shown_path}: connect one, or delete the block"
+            )
         way, port = (port[1], *way), source
     return port, way
 
@@ -118,8 +121,8 @@ def _refuse_other_ends(blocks: Mapping[str, DrawnBlock], feeds: Feeds) -> None:
             continue
         if to != "trigger" or not is_called(block):
             raise DrawnFault(
-                f"{_name(from_)} leads to the {block.kind} block {_name(block)}, which no function call "
-                "executes: connect a function-call subsystem, or a chart with one such event"
+                f"{from_.shown_path} leads to the {block.kind} block {block.shown_path}, which no function "
+                "call executes: connect a function-call subsystem, or a chart with one such event"
             )
 
 
@@ -130,7 +133,7 @@ def _refuse_backward(blocks: Mapping[str, DrawnBlock], feeds: Feeds, calls: Sequ
             if any(
                 target == early.target and source[0] == late.target for (target, _), source in feeds.items()
             ):
-                first, second = _name(blocks[early.target]), _name(blocks[late.target])
+                first, second = blocks[early.target].shown_path, blocks[late.target].shown_path
                 raise DrawnFault(
                     f"{second} feeds {first}, which one function call executes before it: put a delay between"
                 )
@@ -161,8 +164,8 @@ def _refuse_no_caller(block: DrawnBlock, caller: DrawnBlock | None) -> None:
     elif caller is None:
         said = "comes from no block that is there"
     else:
-        said = f"comes from the {caller.kind} block {_name(caller)}: let an event of a chart call it"
-    raise DrawnFault(f"the function call of {_name(block)} {said}")
+        said = f"comes from the {caller.kind} block {caller.shown_path}: let an event of a chart call it"
+    raise DrawnFault(f"the function call of {block.shown_path} {said}")
 
 
 def calls_of(
@@ -176,29 +179,31 @@ def calls_of(
     found: dict[str, Sequence[FunctionCall]] = {}
     for number, event in enumerate(events, outputs + 1):
         port = (block.id, number)
-        which = f"{_name(block)}, the event {event.name} (SSID {event.ssid})"
+        which = f"{block.shown_path}, the event {event.name} (SSID {event.ssid})"
         made, uses = calls.get(port, ()), [target for (target, _), source in feeds.items() if source == port]
         others = [blocks[one] for one in uses if one in blocks and blocks[one].kind != "Terminator"]
         if event.trigger != FUNCTION_CALL:
             if made:
                 raise DrawnFault(
-                    f"{which} is no function call, and {_name(blocks[made[0].target])} waits for one: make "
-                    "its trigger Function Call"
+                    f"{which} is no function call, and {blocks[made[0].target].shown_path} waits for one: "
+                    "make its trigger Function Call"
                 )
             continue
         if len(others) > 1:
-            told = " and ".join(_name(one) for one in others)
+            told = " and ".join(one.shown_path for one in others)
             raise DrawnFault(f"{which} leads to {told}: {EACH}")
         if others and not made:
             raise DrawnFault(
-                f"{which} leads to the {others[0].kind} block {_name(others[0])}, which no function call "
+                f"{which} leads to the {others[0].kind} block {others[0].shown_path}, which no function call "
                 "executes: make its trigger Either Edge, and that of the block either"
             )
         found[event.name] = made
     wrong = [one for one in calls if one[0] == block.id and not 0 <= one[1] - outputs - 1 < len(events)]
     for one in wrong:
-        told = _name(blocks[calls[one][0].target])
-        raise DrawnFault(f"output {one[1]} of {_name(block)} is data, and {told} waits for a function call")
+        told = blocks[calls[one][0].target].shown_path
+        raise DrawnFault(
+            f"output {one[1]} of {block.shown_path} is data, and {told} waits for a function call"
+        )
     return found
 
 
@@ -212,10 +217,6 @@ def call_event(name: str, events: Sequence[DrawnEvent], number: int) -> str:
             "trigger"
         )
     return events[number - 1].name
-
-
-def _name(block: DrawnBlock) -> str:
-    return " ".join(block.path.split())
 
 
 __all__ = [

@@ -103,7 +103,7 @@ class _Blocks:
         return replace(system, blocks=tuple(self._block(one, system, called) for one in system.blocks))
 
     def _block(self, block: DrawnBlock, system: DrawnSystem, called: bool) -> DrawnBlock:
-        path = " ".join(block.path.split())
+        path = block.shown_path
         if path not in self.names:
             if block.system is None:
                 return block

@@ -26,7 +26,7 @@ def merged(block: DrawnBlock, inputs: Sequence[Port | None], blocks: Mapping[str
         inside = () if source.system is None or source.chart else source.system.blocks
         if not (any(one.kind in CONTROL for one in inside) or is_called(source)) or source.chart:
             raise DrawnFault(
-                f"{' '.join(source.path.split())} feeds it: put that into a subsystem that is enabled, "
+                f"{source.shown_path} feeds it: put that into a subsystem that is enabled, "
                 "triggered or called"
             )
         ends = (one for one in inside if one.kind == "Outport" and number_of(one) == number)

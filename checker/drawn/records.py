@@ -198,6 +198,11 @@ class DrawnChart:
         return names_of(self.path)[-1]
 
     @property
+    def shown_path(self) -> str:
+        """Its path in one line, for messages."""
+        return " ".join(self.path.split())
+
+    @property
     def is_function(self) -> bool:
         """Whether it is one function, a MATLAB function or a truth table, without states."""
         return self.kind in ("MATLAB function", "truth table")
@@ -250,6 +255,11 @@ class DrawnBlock:
     def shown(self) -> str:
         """Its name in one line."""
         return " ".join(part for line in self.name.splitlines() if (part := line.strip()))
+
+    @property
+    def shown_path(self) -> str:
+        """Its path in one line, for messages."""
+        return " ".join(self.path.split())
 
 
 @dataclass(frozen=True)

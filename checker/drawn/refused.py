@@ -89,7 +89,7 @@ def _blocks(system: DrawnSystem, controlled: bool, parts: Parts) -> Iterator[Dra
     """What is refused in a system, which is executed in some steps only if it is ``controlled``."""
     controlled = controlled or any(one.kind in CONTROL for one in system.blocks)
     for block in system.blocks:
-        name, what = " ".join(block.path.split()), f"{block.kind} block {block.id}"
+        name, what = block.shown_path, f"{block.kind} block {block.id}"
         for text in (*_of_block(block, system), *states_refused(block, controlled, parts)):
             yield DrawingNote("refused", name, what, text, system.part, None, block.line)
         for inner in block.systems():

@@ -50,9 +50,9 @@ def order_by_stores(
             beside = names_of(first.path)[:-1] == names_of(second.path)[:-1]
             if None in ranks or ranks[0] == ranks[1] or not beside:
                 raise DrawnFault(
-                    f"{_name(first)} and {_name(second)} use the data store {memory}, and nothing says which "
-                    "of them is executed first: connect them by a signal, or draw them beside each other, "
-                    "each with a Priority"
+                    f"{first.shown_path} and {second.shown_path} use the data store {memory}, and nothing "
+                    "says which of them is executed first: connect them by a signal, or draw them beside "
+                    "each other, each with a Priority"
                 )
             early, late = sorted((one, other), key=lambda name: _priority(groups[name][-1]) or 0)
             before[late].append(early)
@@ -80,10 +80,6 @@ def _reached(before: Mapping[str, Sequence[str]], name: str) -> set[str]:
 def _priority(block: DrawnBlock) -> int | None:
     said = block.parameters.get("Priority", "").strip()
     return int(said) if re.fullmatch(r"-?\d{1,9}", said) else None
-
-
-def _name(block: DrawnBlock) -> str:
-    return " ".join(block.path.split())
 
 
 __all__ = ["MEMORY", "READ", "WRITE", "StoreUse", "Uses", "order_by_stores", "used_by"]

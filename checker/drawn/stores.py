@@ -61,11 +61,13 @@ def data_stores(system: DrawnSystem, charts: Mapping[str, ParsedChart]) -> DataS
         types = {plain_type(one) for one in _said(found, charts, path)}
         types |= set() if written.startswith("Inherit") else {plain_type(written)}
         if len(types) > 1:
-            raise DrawnFault(f"{_name(memory)}: it is of {' and of '.join(sorted(types))}: give it one type")
+            raise DrawnFault(
+                f"{memory.shown_path}: it is of {' and of '.join(sorted(types))}: give it one type"
+            )
         users = [one for one, uses in found.used.items() if any(use.memory == path for use in uses)]
         typed = types or any(one not in charts for one in users)
         if not typed and not _NUMBERS.fullmatch(memory.parameters.get("InitialValue", "0")):
-            raise DrawnFault(f"{_name(memory)}: its type follows from nothing: give it one, as int32")
+            raise DrawnFault(f"{memory.shown_path}: its type follows from nothing: give it one, as int32")
         found.types[path] = next(iter(types), "")
     return found
 
@@ -92,7 +94,7 @@ def _read(
     seen = {**around, **{_store(one): one.path for one in own}}
     for block in system.blocks:
         if block.kind in (READ, WRITE):
-            path = _found(seen, _store(block), _name(block))
+            path = _found(seen, _store(block), block.shown_path)
             found.used[block.path] = [StoreUse(path, block.kind == WRITE)]
         elif block.chart and block.chart in charts:
             _read_chart(found, charts[block.chart], seen)
@@ -156,10 +158,6 @@ def _written(chart: ParsedChart) -> Iterator[str]:
 
 def _store(block: DrawnBlock) -> str:
     return block.parameters.get("DataStoreName", "A").strip()
-
-
-def _name(block: DrawnBlock) -> str:
-    return " ".join(block.path.split())
 
 
 __all__ = ["CHANGES_OF_STORES", "DATA_STORE", "NO_GLOBAL", "DataStores", "data_stores"]

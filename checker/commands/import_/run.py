@@ -92,7 +92,7 @@ def _row(chart: DrawnChart) -> tuple[str, ...]:
         sum(len(level.events) for level in levels),
         sum(len(_TIMERS.findall(label)) for label in labels),
     )
-    return (" ".join(chart.path.split()), kind, *map(str, counts))
+    return (chart.shown_path, kind, *map(str, counts))
 
 
 def _around(model: DrawnModel) -> Iterator[str]:

@@ -53,7 +53,7 @@ def told(node: BlockAtWork) -> Iterator[None]:
     try:
         yield
     except DrawnFault as fault:
-        raise DrawnFault(f"{' '.join(node.block.path.split())}: {fault}") from fault
+        raise DrawnFault(f"{node.block.shown_path}: {fault}") from fault
 
 
 def edge(kind: str, before: float, now: float) -> bool:

@@ -122,7 +122,7 @@ class SystemAtWork:
 
     def _check(self, block: DrawnBlock) -> None:
         """Refuse what would make a block run at another rate, or begin anew.  Raises ``DrawnFault``."""
-        path = " ".join(block.path.split())
+        path = block.shown_path
         written = rate_said(block)
         if block.chart and (chart := self._runner.chart(block.chart)).update == "discrete":
             written = chart.sample_time.strip() or "-1"

@@ -98,7 +98,7 @@ class SystemWriter(CalledBlockWriter):
         if not zeros:
             return []
         name = self._named(block)
-        fault = Var(f"{name}.fault", FAULT, 0, f"{' '.join(block.path.split())} {BY_ZERO}", hidden=True)
+        fault = Var(f"{name}.fault", FAULT, 0, f"{block.shown_path} {BY_ZERO}", hidden=True)
         noted = If(folded(any_of(*zeros)), (Assign(fault, const(1)),))
         return [Block(name, [noted], text=f"What {block.path} divides by.")]
 

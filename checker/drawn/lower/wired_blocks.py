@@ -130,7 +130,7 @@ class WiredBlocks:
         try:
             yield
         except NotLowered as error:
-            where, text = " ".join(node.block.path.split()), str(error)
+            where, text = node.block.shown_path, str(error)
             raise NotLowered(text if text.startswith(where) else f"{where}: {text}") from error
 
     # --- merges --------------------------------------------------------------------------------------------
