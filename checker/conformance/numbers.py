@@ -9,6 +9,7 @@ from fractions import Fraction
 
 from rovercheck.spec_model.lang.domain import Num, fixed
 from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import System
 
 PARAMETER = "(limit that is tried)"
 """The name of a number that is left open, and given with every step."""
@@ -43,4 +44,10 @@ def is_number(name: str) -> bool:
     return name == PARAMETER or value_of(name) is not None
 
 
-__all__ = ["PARAMETER", "is_number", "number_between", "open_number", "value_of"]
+def numbers_in(system: System) -> tuple[tuple[str, Fraction], ...]:
+    """All numbers between others that a system reads, by their names, with their raw values."""
+    found = ((name, value_of(name)) for name in system.inputs)
+    return tuple((name, value) for name, value in found if value is not None)
+
+
+__all__ = ["PARAMETER", "is_number", "number_between", "numbers_in", "open_number", "value_of"]

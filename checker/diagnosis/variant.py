@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
+from rovercheck.checker.conformance.numbers import numbers_in
 from rovercheck.checker.diagnosis.change import KINDS, ChartChange
 from rovercheck.checker.diagnosis.hypotheses import (
     age_changes,
@@ -129,10 +130,15 @@ def applied(board: Board, variant: BoardVariant, file: str = "the variant") -> B
 
 
 def with_change(board: Board, change: WrittenChange) -> Board:
-    """The board with one more change.  Raises ``ModelError`` for one that does not fit."""
+    """The board with one more change.  Raises ``ModelError`` for one that does not fit.
+
+    A stamp is taken by the board and not by each chart, so that what was found in two charts is made once.
+    """
     made = found_change(board, board.system, change)
-    readings = [] if made.reading is None else [made.reading]
-    return with_readings(replace(board, system=made.make()), readings)
+    taken = board.interface.taken
+    readings = [] if made.reading is None or made.reading in taken else [made.reading]
+    system = made.make()
+    return with_readings(replace(board, system=system, constants=numbers_in(system)), readings)
 
 
 def with_changes(board: Board, keys: Iterable[Sequence[str]]) -> Board:

@@ -15,7 +15,7 @@ from rovercheck.spec_model.abstraction.interface import (
     InterfaceWriter,
 )
 from rovercheck.spec_model.abstraction.readings import StampReading
-from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Value, computed, whole
+from rovercheck.spec_model.abstraction.signals import BoardSignal, Output, Raw, Value, computed, whole
 from rovercheck.spec_model.lang.domain import Num
 from rovercheck.spec_model.lang.system import System
 
@@ -24,9 +24,10 @@ from rovercheck.spec_model.lang.system import System
 class Board:
     """A board: its charts without environment, and the concrete signals around them.
 
-    The inputs of ``system`` are what ``interface`` carries.  ``grid_ms``: all stamps are multiples of it
-    after the first step, or 1 if stamps may lie anywhere.  ``supervisor`` is the one of this project,
-    ``KIND:WHAT``, which is run unless another is named; ``model`` the file or folder of a user's own model.
+    The inputs of ``system`` are what ``interface`` carries, and ``constants``: raw values that no signal
+    gives.  ``grid_ms``: all stamps are multiples of it after the first step, or 1 if stamps may lie
+    anywhere.  ``supervisor`` is the one of this project, ``KIND:WHAT``, which is run unless another is
+    named; ``model`` the file or folder of a user's own model.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Board:
     grid_ms: int
     supervisor: str = ""
     model: str = ""
+    constants: tuple[tuple[str, Raw], ...] = ()
 
     @property
     def tick_ms(self) -> int:
@@ -53,7 +55,7 @@ class Board:
 
     def reader(self) -> InterfaceReader:
         """The inputs of the charts from those of the firmware, step by step from power-up."""
-        return InterfaceReader(self.interface)
+        return InterfaceReader(self.interface, self.constants)
 
     def writer(self) -> InterfaceWriter:
         """Concrete inputs that a run of the model stands for, step by step from power-up."""

@@ -4,7 +4,7 @@ The reader and the writer of a board, the decoder of its logs, the places in fir
 stimuli are all derived from these rows.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -212,8 +212,8 @@ class InterfaceReader:
     A step sees an update whenever in the tick before it the stamp was set.
     """
 
-    def __init__(self, interface: BoardInterface) -> None:
-        self._interface = interface
+    def __init__(self, interface: BoardInterface, constants: Iterable[tuple[str, Raw]] = ()) -> None:
+        self._interface, self._constants = interface, tuple(constants)
         by = interface.by_carriage
         self._advances = {v.var.name: Updates() for v in by[Carriage.ADVANCE]}
         self._updates = {v.var.name: Updates() for v in by[Carriage.UPDATE]}
@@ -242,7 +242,7 @@ class InterfaceReader:
             at[v.var.name] = int(self._updates[v.var.name].step(int(inputs[v.signal.name])) is not None)
         for v in by[Carriage.SLOW]:
             at[v.var.name] = int(self._means[v.var.name].step(int(inputs[v.signal.name])))
-        return computed(at)
+        return computed({**at, **dict(self._constants)})
 
 
 class InterfaceWriter:

@@ -1,9 +1,12 @@
 """Variants: causes written down and applied again, after which nothing deviates; those that do not fit."""
 
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from rovercheck.checker.compare.beside import SteppedCharts
+from rovercheck.checker.compare.recorded_runs import counterexamples
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.hypotheses import mutant_changes, rewrite_changes, signals_of
 from rovercheck.checker.diagnosis.result import diagnose_board
@@ -130,3 +133,25 @@ def test_what_stands_several_times_at_one_place_is_changed_where_it_was_found() 
     assert [first, second] == [digest(change.make()) for change in alike]
     assert first != second
     assert "(place 2)" in alike[1].text and "(place" not in alike[0].text
+
+
+def test_a_number_between_the_multiples_of_its_resolution_is_given_in_every_step() -> None:
+    """0.7 of full speed, which the charts have in fifths, was an input without a value in all runs."""
+    slower = WrittenChange("constant", "updateSafetyLimits", "block V_MAX_MANEUVER", "0.8", "0.7")
+    board = with_change(boards()["board1"], slower)
+    fastest = set[int]()
+    for _, steps in counterexamples(board):
+        charts = SteppedCharts(board)
+        for step in steps:
+            charts.step(step.inputs)
+            fastest.add(charts.valuation()["V_MAX_MANEUVER"])
+    assert max(fastest) == Fraction(7, 2)
+
+
+def test_a_stamp_that_two_charts_show_to_be_taken_otherwise_is_taken_so_once() -> None:
+    """Every other update, written for two charts, was every fourth one."""
+    at, otherwise = "stamp/last_valid_b2_ms", ("as it is given", "every other one")
+    board = boards()["board1"]
+    for chart in ("Monitor_heartbeat", "Monitor_reception"):
+        board = with_change(board, WrittenChange("stamp", chart, at, *otherwise))
+    assert [one.stamp for one in board.interface.taken] == ["last_valid_b2_ms"]
