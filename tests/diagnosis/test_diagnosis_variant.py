@@ -150,8 +150,13 @@ def test_a_number_between_the_multiples_of_its_resolution_is_given_in_every_step
 
 def test_a_stamp_that_two_charts_show_to_be_taken_otherwise_is_taken_so_once() -> None:
     """Every other update, written for two charts, was every fourth one."""
-    at, otherwise = "stamp/last_valid_b2_ms", ("as it is given", "every other one")
+    record = "into one record, added up in 32 bits, with last_valid_b2_ms"
+    found = (
+        ("shared", "stamp/b2_data_last_valid_ms", "as it is given", record),
+        ("stamp", "stamp/last_valid_b2_ms", "as it is given", "every other one"),
+    )
     board = boards()["board1"]
     for chart in ("Monitor_heartbeat", "Monitor_reception"):
-        board = with_change(board, WrittenChange("stamp", chart, at, *otherwise))
-    assert [one.stamp for one in board.interface.taken] == ["last_valid_b2_ms"]
+        for kind, *change in found:
+            board = with_change(board, WrittenChange(kind, chart, *change))
+    assert [one.stamp for one in board.interface.taken] == ["b2_data_last_valid_ms", "last_valid_b2_ms"]
