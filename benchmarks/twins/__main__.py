@@ -4,8 +4,9 @@
 
 Stages: ``base`` (does each firmware conform before anything is planted), ``twin`` (which differences are
 told), ``causes`` (the same, with deviations merged by cause), ``further`` (are faults on top of what is known
-reported as new), ``logs`` (what is said of logs of the twins), and ``alone``, which runs every difference by
-itself and keeps where it shows.  Without one: all but ``alone``.
+reported as new), ``variant`` (do the charts with the causes written as changes do the same), ``logs`` (what is
+said of logs of the twins), and ``alone``, which runs every difference by itself and keeps where it shows.
+Without one: all but ``alone``.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -24,6 +25,7 @@ STAGES: Mapping[str, Stage] = {
     "twin": measure.twin,
     "causes": measure.causes,
     "further": measure.further,
+    "variant": measure.variant,
     "logs": measure.folder_of_logs,
     "alone": lambda firmware, folder, effort: measure.alone(firmware, effort.examples),
 }

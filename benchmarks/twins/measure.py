@@ -150,6 +150,19 @@ def gone(firmware: Firmware, folder: Path, effort: TwinEffort, with_known: tuple
     )
 
 
+def variant(firmware: Firmware, folder: Path, effort: TwinEffort) -> Iterator[str]:
+    """Writes the causes as a variant of the charts: is anything left that the twin does otherwise?"""
+    address, file = firmware.written(folder / "twin", firmware.differences), folder / "variant.toml"
+    seconds = "--seconds", str(effort.seconds)
+    report = told(firmware, address, folder, effort.examples, "--write-variant", str(file), *seconds)
+    if not file.exists():
+        yield f"variant: none was written: {report.trouble}"
+        return
+    again = told(firmware, address, folder, effort.examples, "--variant", str(file), "--no-causes")
+    yield f"variant: exit code {again.answer} (0 is right), {len(again.groups)} left {again.trouble}"
+    yield from (f"  LEFT {group}" for group in again.groups)
+
+
 # --- logs -------------------------------------------------------------------------------------------
 
 
