@@ -4,8 +4,8 @@
 
 Stages: ``base`` (does each firmware conform before anything is planted), ``twin`` (which differences are
 told), ``causes`` (the same, with deviations merged by cause), ``further`` (are faults on top of what is known
-reported as new), ``variant`` (do the charts with the causes written as changes do the same), ``logs`` (what is
-said of logs of the twins), and ``alone``, which runs every difference by itself and keeps where it shows.
+reported as new), ``variant`` (do the charts with the causes written as changes do the same), ``logs`` (what
+is said of logs of the twins), and ``alone``, which runs every difference by itself and keeps where it shows.
 Without one: all but ``alone``.
 """
 
