@@ -130,8 +130,10 @@ def machine_model(path: Path, machine: StateMachine) -> MachineModel:
             raise ModelError(f"{said.path}: {name} is no datum. {did_you_mean(name, known)}")
         if name in machine.data:
             _fitting(said.path, name, domain, machine.data[name])
-        elif carried[name] == "boolean" or not _whole(domain):
-            raise ModelError(f"{said.path}: {name} has a domain of whole numbers, or is a truth value.")
+        elif carried[name] == "boolean":
+            raise ModelError(f"{said.path}: {name} is true or false, and has no domain. Remove the line.")
+        elif not _whole(domain):
+            raise ModelError(f"{said.path}: {name} has whole numbers. Write {{ low = 0, high = 9 }}.")
     try:
         made = lowered_machine(machine, str(path), said.domains)
     except RecursionError:

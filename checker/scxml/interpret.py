@@ -70,7 +70,8 @@ class MachineRunner:
         The first step enters the machine before it takes its event, with the data that it has ``carried``.
         ``guards`` are those that are known by name only, and hold in this step; the others do not.
         """
-        self.fired, self.ran, self._guards, self._carried = [], set(), guards or {}, carried or {}
+        self._guards, self._carried = guards or {}, carried or {}
+        self._forget_last_step()
         if not self._running:
             return
         begun, self._begun = self._begun, True
@@ -90,6 +91,9 @@ class MachineRunner:
                 raise DrawnFault(f"a step needs more than {self._most} microsteps")
         if not self._running:
             self._exit_interpreter()
+
+    def _forget_last_step(self) -> None:
+        self.fired, self.ran = [], set()
 
     def _pass_time(self) -> None:
         for number in sorted(self._waiting):

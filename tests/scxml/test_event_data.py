@@ -1,5 +1,6 @@
 """What events carry: read where the event is one from outside, as inputs in their domains."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -70,7 +71,9 @@ def test_domains_are_proposed_from_what_is_a_copy_of_it(
     assert run(["import", "--propose-domains", str(file)]) == Exit.AS_EXPECTED
     text = file.with_suffix(".domains.toml").read_text(encoding="utf-8")
     assert '"event.value" = { low = 0, high = 51 }' in text and "x = { low = 0, high = 51 }" in text
-    assert run(["import", str(file)]) == Exit.AS_EXPECTED
+    capsys.readouterr()
+    assert run(["import", "--json", str(file)]) == Exit.AS_EXPECTED
+    assert json.loads(capsys.readouterr().out)["event_data"] == {"value": "integer", "braking": "boolean"}
 
 
 RAISES = "<state id='a'><onexit><raise event='i'/></onexit>"
@@ -115,10 +118,10 @@ def test_what_is_not_known_to_be_carried_is_refused(inside: str, said: str) -> N
     ("domains", "said"),
     [
         ('"event.valu" = { low = 0, high = 1 }', "event.valu is no datum. Did you mean 'event.value'?"),
-        ('"event.braking" = { low = 0, high = 1 }', "event.braking has a domain of whole"),
+        ('"event.braking" = { low = 0, high = 1 }', "event.braking is true or false, and has no domain"),
         (
             '"event.value" = { low = 0, high = 1, resolution = 0.5 }',
-            "event.value has a domain of whole",
+            "event.value has whole numbers. Write",
         ),
         ("x = { low = 0, high = 60 }", 'Write "event.value" = { low = 0, high = 9 }'),
     ],

@@ -21,15 +21,9 @@ class XstateRunner(MachineRunner):
         self.at_once = 0
         """Delays that were over at the same time in the last step."""
 
-    def step(
-        self,
-        event: str = "",
-        guards: Mapping[str, bool] | None = None,
-        carried: Mapping[str, Value] | None = None,
-    ) -> None:
-        """One step, as of ``MachineRunner``."""
+    def _forget_last_step(self) -> None:
+        super()._forget_last_step()
         self._eventless, self.at_once = not self._begun, 0
-        super().step(event, guards, carried)
 
     def _pass_time(self) -> None:
         self._due = []
