@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from shlex import quote
 
+from rovercheck.checker.conformance.numbers import is_number
 from rovercheck.checker.diagnosis.change import KINDS, ChartChange, place_text
 from rovercheck.checker.diagnosis.hypotheses import written_changes
 from rovercheck.checker.diagnosis.variant import BoardVariant, WrittenChange, applied, found_change
@@ -37,11 +38,15 @@ class ChartChanges:
     @property
     def name(self) -> str:
         """``with variant.toml``; what no system shows is left out."""
-        told = f"with {self.file.name}"
         if not self.of_stamps:
-            return told
+            return self.board_name
         numbers = ", ".join(str(number) for number, _ in self.of_stamps)
-        return f"{told} but for change{'s' * (len(self.of_stamps) > 1)} {numbers}"
+        return f"{self.board_name} but for change{'s' * (len(self.of_stamps) > 1)} {numbers}"
+
+    @property
+    def board_name(self) -> str:
+        """``with variant.toml``: a whole board has every change."""
+        return f"with {self.file.name}"
 
     @property
     def options(self) -> str:
@@ -100,6 +105,8 @@ class ChartChanges:
         made = self._found(change, system).make()
         more = sorted(made.inputs.keys() - system.inputs.keys())
         if more and change.kind not in WHOLE:  # another interpretation may read more
+            if all(map(is_number, more)):
+                raise ModelError(f"{change.new} lies between the steps in which its charts count.")
             raise ModelError(f"it reads {', '.join(more)}, which the system does not have.")
         return made
 

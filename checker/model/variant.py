@@ -32,7 +32,11 @@ class SystemChanges(Protocol):
 
     @property
     def name(self) -> str:
-        """``with variant.toml``."""
+        """``with variant.toml``, and what no system has of it."""
+
+    @property
+    def board_name(self) -> str:
+        """``with variant.toml``: a whole board has all of it."""
 
     @property
     def options(self) -> str:
@@ -76,10 +80,17 @@ class Variant:
     @property
     def name(self) -> str:
         """``under S43=AND with safety-critical-first``; empty for the charts as specified."""
+        return self._named(self.changes.name if self.changes else "")
+
+    @property
+    def board_name(self) -> str:
+        """As ``name``, of a whole board, which also has the changes that no system shows."""
+        return self._named(self.changes.board_name if self.changes else "")
+
+    def _named(self, changed: str) -> str:
         chosen = ", ".join(f"{id}={choice}" for id, choice in self.choices.items())
         repair = f"with {self.repair.name}" if self.repair else ""
         dropped = f"without {', '.join(sorted(self.without))}" if self.without else ""
-        changed = self.changes.name if self.changes else ""
         return " ".join(part for part in (chosen and f"under {chosen}", repair, dropped, changed) if part)
 
     @property

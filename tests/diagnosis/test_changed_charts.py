@@ -162,6 +162,9 @@ def test_what_no_system_shows_is_named() -> None:
         LATER, ("stamp", "Monitor_reception", "stamp/b2_data_last_valid_ms", "as it is given", "in 16 bits")
     )
     assert made.name == "with variant.toml but for change 2"
+    assert made.board_name == "with variant.toml", "compare and check-log follow it"
+    variant = Variant({}, changes=made)
+    assert (variant.name, variant.board_name) == (made.name, made.board_name)
     assert "verdicts leave it out, as the charts see ages and no stamps" in "".join(made.notes())
 
 
@@ -178,6 +181,15 @@ def test_a_signal_that_a_system_does_not_have_is_refused_there() -> None:
     [why] = left
     assert f"{of_wheel[0].id}, " in why
     assert "left out: variant.toml, change 1 (signal in Monitor_wheel_RL) cannot be made" in why
+
+
+def test_a_number_between_the_steps_of_a_datum_is_refused_in_the_words_of_the_change() -> None:
+    """It was "it reads (the number 7/2), which the system does not have"."""
+    slower = ("constant", "updateSafetyLimits", "block V_MAX_MANEUVER", "0.8", "0.7")
+    made = changes(slower)
+    told = r"change 1 \(constant in updateSafetyLimits\) cannot be made in references: 0\.7 lies between"
+    with pytest.raises(ModelError, match=told):
+        made.changed(systems()["references"])
 
 
 def test_a_change_of_one_monitor_leaves_systems_of_the_others_as_they_are() -> None:

@@ -52,9 +52,9 @@ class LogRequest:
 
 def request_of(variant: Variant, options: LogOptions, used: bool = False) -> LogRequest:
     """What is asked of logs against the charts, changed or not.  Raises ``UsageError``."""
-    changed = variant.name or variant.own is not None
+    changed = variant.board_name or variant.own is not None
     against = _against(variant, options.system) if changed else None
-    return LogRequest(column_map(options.map_file), options, variant.name, against, used=used)
+    return LogRequest(column_map(options.map_file), options, variant.board_name, against, used=used)
 
 
 def _against(variant: Variant, name: str | None) -> LogReference:

@@ -48,7 +48,7 @@ def check_log(
     book = KnownBook({}, "")
     if options.known is not None or options.write_known is not None:
         every = asked.against.boards if asked.against else boards_of(variant)
-        book = known_book(options.known, options.write_known, every, variant.name)
+        book = known_book(options.known, options.write_known, every, variant.board_name)
     asked = replace(asked, book=book, used=book.used, files=files)
     return _folder(place, asked, charts) if place.is_dir() else _log(place, asked)
 

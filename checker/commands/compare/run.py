@@ -72,7 +72,7 @@ def compare(
     named = _boards(asked)
     own = asked.variant.own is not None
     every = {b.name: b for b in named} if own else boards_of(asked.variant)
-    book = known_book(asked.known, asked.write_known, every, asked.variant.name)
+    book = known_book(asked.known, asked.write_known, every, asked.variant.board_name)
     book.concerning([board.name for board in named])
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
     reports: list[CrosscheckReport] = []
@@ -91,7 +91,7 @@ def compare(
         judgement = _judged(book, result, grouping)
         variants.append(_variant(result, grouping, address, asked.variant))
         reports.append(
-            CrosscheckReport(result, address, files, asked.variant.name, judgement, book.used, groups)
+            CrosscheckReport(result, address, files, asked.variant.board_name, judgement, book.used, groups)
         )
         if not as_json:
             out.print(report(reports[-1]), markup=False)
@@ -154,7 +154,7 @@ def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -
     out.print(
         f"{board.name}: {address}\n"
         f"  beside {counted(len(board.system.charts), 'chart', 'charts')}"
-        f"{f' {asked.variant.name}' if asked.variant.name else ''}; "
+        f"{f' {asked.variant.board_name}' if asked.variant.board_name else ''}; "
         f"{counted(runs, 'random run', 'random runs')} from seed {seed}.",
         markup=False,
     )
@@ -195,7 +195,7 @@ def _checked(
     try:
         with ProgressLine() as line:
             return cross_check(
-                board if asked.variant.name or board.model else board.name,
+                board if asked.variant.board_name or board.model else board.name,
                 implementation,
                 effort(asked.profile, asked.examples, seed),
                 folder=asked.tests,
@@ -241,7 +241,7 @@ def _write_tests(result: CompareResult, address: str, variant: Variant, folder: 
             raise UsageError(
                 f"Cannot make {whole(folder)}: {error.strerror}. Choose another --output."
             ) from error
-        write(reproduction(found, address, variant.name), place)
+        write(reproduction(found, address, variant.board_name), place)
         written.append(place)
     return written
 
