@@ -66,6 +66,18 @@ def aims(board: Board) -> Aims:
     return _aims(board.name, board.system, board)
 
 
+def together(some: Iterable[Aims]) -> Aims:
+    """All that several boards with the same inputs are aimed at with."""
+    every = list(some)
+    stamps = dict.fromkeys(stamp for one in every for stamp in one.silences)
+    return Aims(
+        tuple(sorted({b for one in every for b in one.boundaries})),
+        tuple(sorted({n for one in every for n in one.timers})),
+        {s: tuple(sorted({n for one in every for n in one.silences.get(s, ())})) for s in stamps},
+        tuple(sorted({n for one in every for n in one.means})),
+    )
+
+
 def formulas(system: System) -> list[Expr]:
     """Every guard and every expression of an action, and what enables a subsystem."""
     found = [e for c in system.charts for e in c.expressions]

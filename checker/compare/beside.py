@@ -34,6 +34,10 @@ class ComparedStep:
     fired: tuple[FiredTransition, ...]
 
 
+Run = tuple[str, list[ComparedStep]]
+"""A run of the charts, and what it is for."""
+
+
 @dataclass(frozen=True)
 class StepDifference:
     """An output that is not as the charts require; ``actual`` is None where it is missing."""

@@ -10,6 +10,7 @@ from rovercheck.checker.adapters.implementation import Implementation, Value, Va
 from rovercheck.checker.board_tests.rows import Row, rows, start_ms
 from rovercheck.checker.compare.beside import (
     ComparedStep,
+    Run,
     StepMismatch,
     differences,
     differs,
@@ -30,7 +31,6 @@ from rovercheck.checker.compare.search import (
     KnownChanges,
     Leading,
     Progress,
-    Run,
     effort,
 )
 from rovercheck.checker.compare.strategy import ENVIRONMENTS, environment

@@ -32,6 +32,8 @@ class Environment:
     means: tuple[int, ...] = ()
     scenes: Callable[["Environment"], Iterator[tuple[str, Blocks, Blocks]]] = lambda env: iter(())
     """Sequences that are always tried: what they are, blocks that begin a run of them, and one of them."""
+    also: tuple[Board, ...] = ()
+    """Boards with other charts, of which the boundaries and timers are aimed at, too."""
 
     @property
     def fields(self) -> Mapping[str, tuple[str, ...]]:
@@ -40,7 +42,7 @@ class Environment:
 
     @cached_property
     def values(self) -> Values:
-        return Values(self.board)
+        return Values(self.board, self.also)
 
     @cached_property
     def at_rest(self) -> tuple[tuple[str, Change], ...]:

@@ -48,6 +48,12 @@ class EvidenceRuns:
         self.parts.append(frozenset([*(one.part for one in told), *undecided]))
         self.numbers.append(number)
 
+    def choose(self, number: int, run: RecordedRun) -> None:
+        """Keep a run that was chosen for causes and shows more than they explain."""
+        self.runs.append(run.recording)
+        self.parts.append(frozenset())
+        self.numbers.append(number)
+
     def run(self, board: Board, origin: str) -> tuple[int, RecordedRun]:
         """A run that is kept, with its number; what the charts do in it is computed anew."""
         place = next(n for n, run in enumerate(self.runs) if run.name == origin)

@@ -23,20 +23,30 @@ LONG = 1500
 Labelled = tuple[str, Stimulus]
 
 
-def fixed(env: Environment) -> Iterator[Labelled]:
-    """Every fixed run of a board, with what it is for."""
-    yield from _first_steps(env)
+def fixed(env: Environment, tried: Environment | None = None) -> Iterator[Labelled]:
+    """Every fixed run of a board, with what it is for; what is also in those of ``tried`` is left out."""
+    before = frozenset() if tried is None else frozenset(_first_steps(tried))
+    yield from (run for run in _first_steps(env) if run not in before)
+    known: set[tuple[str, tuple[InputBlock, ...]]] = set()
+    if tried is not None:
+        known.update((label, tuple(part)) for label, _, parts in _themes(tried) for part in parts)
+    for label, begin, parts in _themes(env):
+        yield from _in_runs(env, label, begin, [part for part in parts if (label, tuple(part)) not in known])
+
+
+def _themes(env: Environment) -> Iterator[tuple[str, Blocks, list[Blocks]]]:
+    """What runs are for, how they begin, and what is in them."""
     for theme, (begin, _) in env.themes.items():
         if begin or theme == "anything":
-            yield from _in_runs(env, f"each value ({theme})", begin, list(_each_value(env)))
-    yield from _in_runs(env, "flags in pairs", [], list(_pairs(env)))
-    yield from _in_runs(env, "timers of inputs", [], list(_held(env)))
-    yield from _in_runs(env, "silences", [], list(_silences(env)))
-    yield from _in_runs(env, "rhythms", [], list(_rhythms(env)))
-    yield from _in_runs(env, "old measurements", [], list(_aging(env)))
+            yield f"each value ({theme})", begin, list(_each_value(env))
+    yield "flags in pairs", [], list(_pairs(env))
+    yield "timers of inputs", [], list(_held(env))
+    yield "silences", [], list(_silences(env))
+    yield "rhythms", [], list(_rhythms(env))
+    yield "old measurements", [], list(_aging(env))
     for label, scenes in groupby(env.scenes(env), key=lambda scene: scene[0]):
         parts = list(scenes)
-        yield from _in_runs(env, label, parts[0][1], [part for _, _, part in parts])
+        yield label, parts[0][1], [part for _, _, part in parts]
 
 
 def _in_runs(env: Environment, label: str, begin: Blocks, parts: list[Blocks]) -> Iterator[Labelled]:

@@ -5,9 +5,8 @@ from itertools import pairwise
 from random import Random
 
 from rovercheck.checker.board_tests.rows import Moment
-from rovercheck.checker.compare.beside import ComparedStep, SteppedCharts
+from rovercheck.checker.compare.beside import ComparedStep, Run, SteppedCharts
 from rovercheck.checker.compare.environment import Environment
-from rovercheck.checker.compare.search import Run
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.explore import RandomMachine, TriedRun, explored

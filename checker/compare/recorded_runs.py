@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rovercheck.checker.adapters.implementation import Value
-from rovercheck.checker.compare.beside import ComparedStep, rerun
-from rovercheck.checker.compare.search import Run
+from rovercheck.checker.compare.beside import ComparedStep, Run, rerun
 from rovercheck.checker.io.files import csv_plain
 from rovercheck.checker.testgen.scripts import Script, blocks, script, steps, unfolded
 from rovercheck.spec_model.abstraction import Board, boards

@@ -14,8 +14,8 @@ from rovercheck.checker.conformance.deviations import Deviation, DeviationScope,
 from rovercheck.checker.conformance.follower import Situation
 from rovercheck.spec_model.abstraction import Board
 
-FIXED, RANDOM = "fixed runs", "random runs"
-"""The two kinds of runs, in the order in which they are tried."""
+FIXED, RANDOM, DECIDING = "fixed runs", "random runs", "runs for the causes found"
+"""The kinds of runs, in the order in which they are tried; the last only where causes are asked for."""
 
 
 @dataclass(frozen=True)

@@ -1,20 +1,22 @@
 """The search for mismatches: fixed runs, recorded runs, then random ones that Hypothesis draws."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from random import SystemRandom
 from typing import Protocol
 
 from rovercheck.checker.adapters.implementation import Implementation, notes
-from rovercheck.checker.compare.beside import ComparedStep, StepMismatch
+from rovercheck.checker.compare.beside import ComparedStep, Run, StepMismatch, differing, rerun
 from rovercheck.checker.compare.coverage import TransitionCoverage
+from rovercheck.checker.compare.deciding_runs import DecidingRuns
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.notable_runs import NotableRuns
 from rovercheck.checker.compare.result import (
     ALLOWED,
+    DECIDING,
     FIXED,
     RANDOM,
     Allowance,
@@ -24,10 +26,20 @@ from rovercheck.checker.compare.result import (
 )
 from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.compare.smaller import Budget, mismatch_of, smaller
-from rovercheck.checker.compare.tried_runs import SHARE, RunsLost, RunTrier, Share, TriedRun, shares
+from rovercheck.checker.compare.tried_runs import (
+    SHARE,
+    RunCoverage,
+    RunsLost,
+    RunTrier,
+    Share,
+    TriedRun,
+    shares,
+)
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
 from rovercheck.checker.conformance.follower import Behaviour, Situation
+from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.conformance.tracker import UndecidedRow
+from rovercheck.spec_model.lang.errors import ModelError
 
 CI_SEED = 5
 NIGHTLY = 20
@@ -58,7 +70,6 @@ def effort(profile: str, examples: int | None = None, seed: int | None = None) -
 CI = effort("ci")
 
 
-Run = tuple[str, list[ComparedStep]]
 Progress = Callable[["CompareSearch"], None]
 Elsewhere = Callable[[Sequence[Share]], Iterable[TriedRun]]
 """Tries the random runs of some shares, and says what came of each, in their order.  Raises ``RunsLost``."""
@@ -86,6 +97,20 @@ class KnownChanges(Protocol):
     @property
     def left(self) -> Mapping[str, Sequence[Deviation]]:
         """Of runs kept as evidence, by their origins, what deviates on top of the causes found."""
+
+    def deciding(self, seed: int) -> DecidingRuns | None:
+        """More runs, in which the causes found may turn out to be others; ``None``: no more are wanted."""
+
+    def shown(
+        self, parts: frozenset[str], deviations: Sequence[Deviation], explained: Sequence[Recording]
+    ) -> None:
+        """Takes the parts in which such runs show what the causes do not explain, and what deviates there.
+
+        ``explained`` are the runs of which the causes explain all.
+        """
+
+    def further(self) -> Sequence[Deviation]:
+        """What deviates in such runs alone, and has a cause of its own."""
 
 
 class Enough(BaseException):
@@ -134,6 +159,7 @@ class CompareSearch:
         self._undecided = Counter[tuple[str, str]]()
         self._situations = set[Situation]()
         self._evidence = EvidenceRuns()
+        self._times, self._more = Counter[str](), DeviationTally()
 
     def run(self, runs: Iterable[Run] = ()) -> CompareResult:
         """Try these runs, then random ones; what was found so far also after Ctrl-C."""
@@ -196,10 +222,12 @@ class CompareSearch:
             why = "only the first mismatch was wanted" if self.stop_early else "no more could be drawn"
             why = self._lost or why
         drawn = self.tried[RANDOM]
-        return (
+        stages = (
             CompareStage(FIXED, self.tried[FIXED], None, "" if self._complete else why),
             CompareStage(RANDOM, drawn, self.effort.examples, "" if drawn >= self.effort.examples else why),
         )
+        for_causes = [CompareStage(DECIDING, self.tried[DECIDING], None)] if DECIDING in self.tried else []
+        return (*stages, *for_causes)
 
     @property
     def _hopeless(self) -> bool:
@@ -209,6 +237,12 @@ class CompareSearch:
         """Make the mismatches small that are told in full, what explains most first."""
         self.doing = "looking for causes"
         first = self.leading(self._deviations(), self._evidence)
+        while self.known is not None and (more := self.known.deciding(self.effort.seed)) is not None:
+            if not self._decided(more):
+                break
+            first = self.leading(self._deviations(), self._evidence)
+        if self.known is not None:
+            self.tally.add(self.known.further(), self.tally.evidence or WholeEvidence())
         for origin, on_top in ({} if self.known is None else self.known.left).items():
             self.notable.more(*self._evidence.run(self.env.board, origin), on_top)
         todo = [self._mismatch(one) for one in first[: self.allowance.mismatches]]
@@ -229,11 +263,14 @@ class CompareSearch:
         return self._follower
 
     def _try_all(self, runs: Iterable[Run]) -> None:
-        times = Counter[str]()
         for origin, steps in runs:
-            times[origin] += 1  # several are made for one purpose: what is told of one must be of this one
-            self._try(origin if times[origin] == 1 else f"{origin} ({times[origin]})", steps)
+            self._try(self._origin(origin), steps)
         self._complete = True
+
+    def _origin(self, label: str) -> str:
+        """Several runs are made for one purpose: what is told of one must be of this one."""
+        self._times[label] += 1
+        return label if self._times[label] == 1 else f"{label} ({self._times[label]})"
 
     def _try(self, origin: str, steps: list[ComparedStep]) -> None:
         """Compare one run to its end.  Raises ``Enough`` when the search is over."""
@@ -242,6 +279,14 @@ class CompareSearch:
 
     def _take(self, run: TriedRun) -> None:
         """What came of a run.  Raises ``Enough`` when the search is over."""
+        self._count(run)
+        if run.steps or self.watched:
+            self._follow(RecordedRun(self.env.board, run.origin, run.steps, run.outputs))
+        if self._hopeless or (self.stop_early and (self.failures or self.tally.groups)):
+            raise Enough
+        self.progress(self)
+
+    def _count(self, run: TriedRun) -> None:
         self.tried[self.doing] += 1
         self.coverage.add(run.met)
         if run.failed is not None:
@@ -249,11 +294,6 @@ class CompareSearch:
             self.failures.append(Failure(self.env.board, run.origin, failed.because, failed.steps, number))
         self._seen |= run.seen
         self.compared += run.answered
-        if run.steps or self.watched:
-            self._follow(RecordedRun(self.env.board, run.origin, run.steps, run.outputs))
-        if self._hopeless or (self.stop_early and (self.failures or self.tally.groups)):
-            raise Enough
-        self.progress(self)
 
     def _follow(self, run: RecordedRun) -> None:
         """Part by part through the charts, to the end."""
@@ -273,6 +313,48 @@ class CompareSearch:
         for one in every:
             self._runs[run.origin, one.first.tick] = run.up_to(one.first.tick)
         self.tally.add(groups.values(), evidence or WholeEvidence(), run.origin)
+
+    def _decided(self, more: DecidingRuns) -> bool:
+        """Whether some of these runs shows that the causes found are others, or not all.
+
+        Only such runs are evidence, of the parts in which they show it: the causes explain the others.
+        """
+        assert self.known is not None
+        self.doing = DECIDING
+        self.tried.setdefault(DECIDING, 0)
+        trier, follower = RunTrier(more.board, self.implementation, always=True), RunFollower(more.board)
+        shown, explained = set[str](), list[Recording]()
+        for origin, steps in more.runs():
+            with suppress(ModelError):  # the charts as drawn may assume that such inputs do not come
+                drawn = tuple(rerun(self.env.board, (step.inputs for step in steps)))
+                run = replace(trier.tried(self._origin(origin), steps), met=RunCoverage.of(more.board, drawn))
+                self._count(run)
+                own = RecordedRun(self.env.board, run.origin, drawn[: len(run.outputs)], run.outputs)
+                left = self._parts_beside(follower, run) & more.parts
+                if left:
+                    shown |= left
+                    self._chosen(own, left)
+                elif own.steps:
+                    explained.append(own.recording)
+            self.progress(self)
+            if self._hopeless:
+                break
+        self.known.shown(frozenset(shown), self._more.deviations(), explained)
+        return bool(shown)
+
+    @staticmethod
+    def _parts_beside(follower: RunFollower, run: TriedRun) -> frozenset[str]:
+        """The parts in which a run differs from what is followed."""
+        if not differing(run.steps, run.outputs):
+            return frozenset()
+        found = follower.behaviour(RecordedRun(follower.board, run.origin, run.steps, run.outputs))
+        return frozenset(scope.part for scope in found.tally.groups)
+
+    def _chosen(self, run: RecordedRun, parts: Collection[str]) -> None:
+        found = self._follower.behaviour(run).tally
+        self._evidence.choose(self.coverage.runs, run)
+        own = [one for scope, one in found.groups.items() if scope.part in parts]
+        self._more.add(own, found.evidence or WholeEvidence(), run.origin)
 
     def _random(self) -> None:
         """Random runs: all that were asked for, whatever is found in them."""

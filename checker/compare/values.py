@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from rovercheck.checker.compare.aims import Aims, Boundary, aims
+from rovercheck.checker.compare.aims import Aims, Boundary, aims, together
 from rovercheck.checker.compare.stimulus import Toward, clocked
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
 from rovercheck.spec_model.abstraction.signals import units
@@ -25,13 +25,14 @@ PARTS = 64
 
 @dataclass(frozen=True)
 class Values:
-    """What may be put on the inputs of a board."""
+    """What may be put on the inputs of a board; ``also``: boards with other charts, to aim at theirs, too."""
 
     board: Board
+    also: tuple[Board, ...] = ()
 
-    @property
+    @cached_property
     def aims(self) -> Aims:
-        return aims(self.board)
+        return together(map(aims, (self.board, *self.also)))
 
     @cached_property
     def signals(self) -> dict[str, BoardSignal]:

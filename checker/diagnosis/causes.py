@@ -1,6 +1,6 @@
 """Deviations grouped by cause: those that one change of the charts explains, or that evidence joins."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -8,7 +8,7 @@ from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector, PartEvidence
-from rovercheck.checker.diagnosis.met_elsewhere import explained_elsewhere
+from rovercheck.checker.diagnosis.met_elsewhere import FollowedPart, explained_elsewhere
 from rovercheck.checker.diagnosis.one_change import likeness
 from rovercheck.checker.diagnosis.part_causes import (
     CutSearch,
@@ -36,11 +36,35 @@ class CauseGroups:
     cut: tuple[CutSearch, ...] = ()
     left_out: int = 0
     parts: tuple[PartChanges, ...] = ()
+    unfit: tuple[str, ...] = ()
+    """Parts that do something else than the causes explain in runs that were chosen for these."""
+    search: "CauseSearch | None" = None
+    """What they come from."""
 
     @property
     def searched(self) -> bool:
         """Whether some cause was found."""
         return any(one.change is not None or one.input for one in self.causes)
+
+
+@dataclass(frozen=True)
+class CauseSearch:
+    """What was found in each part, of these deviations, before the parts were compared with one another."""
+
+    deviations: Sequence[Deviation]
+    parts: Sequence[FollowedPart]
+
+    def kept(
+        self, deviations: Sequence[Deviation], names: Collection[str]
+    ) -> Mapping[str, list[FollowedPart]]:
+        """What was found in some parts, of all deviations that there are now."""
+        places = {one.scope: place for place, one in enumerate(deviations)}
+        moved = [places.get(one.scope) for one in self.deviations]
+        kept: dict[str, list[FollowedPart]] = {}
+        for evidence, part in self.parts:
+            if part.part in names:
+                kept.setdefault(part.part, []).append((evidence, part.moved(moved)))
+        return kept
 
 
 def by_itself(deviations: Iterable[Deviation]) -> CauseGroups:
@@ -49,11 +73,17 @@ def by_itself(deviations: Iterable[Deviation]) -> CauseGroups:
 
 
 def followed(
-    board: Board, runs: Sequence[Recording], progress: Callable[[str], None] = lambda _: None
+    board: Board,
+    runs: Sequence[Recording],
+    progress: Callable[[str], None] = lambda _: None,
+    collector: EvidenceCollector | None = None,
 ) -> Evidence:
-    """What runs say of the parts of a board.  Raises what reading the blocks of a run raises."""
-    collector = EvidenceCollector(board)
-    for number, run in enumerate(runs, 1):
+    """What runs say of the parts of a board; a ``collector`` has followed the first of them already.
+
+    Raises what reading the blocks of a run raises.
+    """
+    collector = collector or EvidenceCollector(board)
+    for number, run in enumerate(runs[collector.runs :], collector.runs + 1):
         progress(f"following deviating run {number} of {len(runs)}")
         collector.add(run)
     return collector.evidence()
@@ -66,13 +96,15 @@ def cause_groups(
     seconds: float,
     progress: Callable[[str], None] = lambda _: None,
     at_once: int = 0,
+    before: CauseSearch | None = None,
 ) -> CauseGroups:
     """The deviations that are met in the evidence by cause, in the order of the first of each.
 
     Causes are looked for in ``parts``, for so many ``seconds`` of the processor in each, ``at_once`` in so
-    many: as a rule as many as there are processors.
+    many: as a rule as many as there are processors.  What was found ``before`` in other parts is kept.
     """
     names = set(parts)
+    kept = {} if before is None else before.kept(deviations, {p.part for _, p in before.parts} - names)
     wanted: dict[str, list[PartEvidence]] = {}
     for one in evidence.parts:
         if one.name in names:
@@ -89,6 +121,9 @@ def cause_groups(
         for number, some in enumerate(wanted.values())
         for pair in zip(by_cases(some), done[number], strict=True)
     ]
+    pairs += [pair for some in kept.values() for pair in some]
+    order = {one.name: place for place, one in enumerate(evidence.parts)}
+    pairs.sort(key=lambda pair: order.get(pair[0].name, len(order)))
     progress(f"{said}, all of them searched; comparing what was found in several")
     every = explained_elsewhere(evidence.board, pairs, deviations, seconds, at_once or cores())
     every = read_alike(evidence, every, deviations)
@@ -98,7 +133,8 @@ def cause_groups(
     causes += [_alone(d) for d in deviations if id(d) not in told]
     places = {id(d): place for place, d in enumerate(deviations)}
     inorder = sorted(causes, key=lambda c: places[id(c.first)])
-    return CauseGroups(tuple(inorder), tuple(cut), parts=tuple(one.together(deviations) for one in every))
+    changes = tuple(one.together(deviations) for one in every)
+    return CauseGroups(tuple(inorder), tuple(cut), parts=changes, search=CauseSearch(deviations, pairs))
 
 
 def together(causes: Iterable[DeviationCause]) -> Iterator[DeviationCause]:
@@ -167,6 +203,6 @@ def split(
 
 
 __all__ = [
-    "CauseGroups", "CutSearch", "DeviationCause", "PartChanges", "by_itself", "cause_groups", "followed",
-    "split", "together",
+    "CauseGroups", "CauseSearch", "CutSearch", "DeviationCause", "PartChanges", "by_itself",
+    "cause_groups", "followed", "split", "together",
 ]  # fmt: skip

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Literal
 
 from rovercheck.spec_model.abstraction.readings import StampReading
@@ -125,6 +126,8 @@ class ChartChange:
     inputs: tuple[str, ...] = ()
     tier: float | None = None
     """How near it lies, where that is not as of its kind."""
+    span: tuple[Fraction, Fraction] | None = None
+    """Of a limit: between which numbers, in its unit, any other one explains as much."""
 
     @property
     def key(self) -> tuple[str, ...]:

@@ -106,6 +106,8 @@ class EvidenceCollector:
         self._groups: dict[Seen, tuple[tuple[ConeGroup, LogCone], ...]] = {}
         self._runs: dict[Seen, list[DecodedRun]] = {}
         self._behaviours: dict[str, Behaviour] = {}
+        self.runs = 0
+        """How many were followed."""
 
     def add(self, run: Recording) -> None:
         """Follow a run.  Raises what reading its blocks raises."""
@@ -132,6 +134,7 @@ class EvidenceCollector:
         watch.tell(decoded)
         self._behaviours[run.name] = follower.end()
         self._runs.setdefault(key, []).append(decoded)
+        self.runs += 1
 
     def evidence(self) -> Evidence:
         """The parts that deviate in some run, in the order of execution.
@@ -184,6 +187,22 @@ class _Watch:
         run.wrong, run.options, run.undecided = self._wrong, self._options, self._undecided
 
 
+def decoded_run(board: Board, run: Recording) -> DecodedRun:
+    """A run from power-up that no part is followed in: what its inputs and outputs are."""
+    decoder = InputDecoder(Vocabulary(board), run.signals, run.from_power_up)
+    outputs = {o.var.name: o.name for o in board.outputs if o.name in run.signals}
+    found = DecodedRun(run, {n: [] for n in (*decoder.seen, *outputs)}, [], [], [])
+    for block in run.blocks():
+        for name, cells in decoder.decode(block).items():
+            found.columns[name] += cells
+        for name, signal in outputs.items():
+            found.columns[name] += block.values[signal]
+        found.ticks += block.ticks
+        found.lines += block.lines
+        found.missing += block.missing
+    return found
+
+
 def logged_of(cone: LogCone, run: DecodedRun) -> list[Known]:
     """The outputs of a part, row by row."""
     columns = [run.columns.get(o.var.name) or [None] * len(run) for o in cone.outputs]
@@ -218,6 +237,6 @@ def taken_otherwise(board: Board, run: DecodedRun, readings: Sequence[StampReadi
 
 
 __all__ = [
-    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "inputs_of", "logged_of",
-    "taken_otherwise",
+    "DecodedRun", "DeviatingCase", "Evidence", "EvidenceCollector", "PartEvidence", "decoded_run",
+    "inputs_of", "logged_of", "taken_otherwise",
 ]  # fmt: skip

@@ -85,21 +85,16 @@ class NumberSlot:
         where = "" if self.at == "everywhere" else f", {place_text(self.at)}"
         limit = op is not None and not self.of_equality
         text = f"a limit of {new}, instead of {old}{where}" if limit else f"{new} instead of {old}{where}"
+        span = between and (between[0] * self.sort.resolution, between[1] * self.sort.resolution)
         # a digit more, another operator, one place of several: each makes it less likely
         moved = abs(value - drawn) / max(abs(value), abs(drawn), Fraction(1, 10**6))
         far = digits(value) + float(moved) * 0.6 + (op is not self.op) / 4 if raw != self.drawn else 0.0
         far += (not self.at.startswith("everywhere")) / 8
         return ChartChange(
             kind, self.chart, self.at, self._formula(self.op, self.drawn), self._formula(op, raw), text,
-            lambda: self._with(op, self._number(op, raw)), far / 100, self._between(between),
-            tier=EQUALITY if self.of_equality else None,
+            lambda: self._with(op, self._number(op, raw)), far / 100, _between(span),
+            tier=EQUALITY if self.of_equality else None, span=span,
         )  # fmt: skip
-
-    def _between(self, gap: Gap | None) -> str:
-        if gap is None or gap[0] == gap[1]:
-            return ""
-        low, high = (f"{float(end * self.sort.resolution):.6g}" for end in gap)
-        return f"any limit between {low} and {high} explains the same"
 
     def _named(self, op: Op | None, value: Fraction) -> str:
         unit = f" {self.sort.unit}" if self.sort.unit else ""
@@ -125,6 +120,13 @@ class NumberSlot:
         changed = in_system(self.system, self.chart, lambda _: part)
         compared = () if self.left is None else (self.left, *self.beside)
         return kept(self.system, counted_on(changed, compared, self.old))
+
+
+def _between(span: tuple[Fraction, Fraction] | None) -> str:
+    if span is None or span[0] == span[1]:
+        return ""
+    low, high = (f"{float(end):.6g}" for end in span)
+    return f"any limit between {low} and {high} explains the same"
 
 
 def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:

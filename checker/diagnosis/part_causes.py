@@ -97,6 +97,15 @@ class SearchedPart:
     cut: CutSearch | None
     cases: int = 0
 
+    def moved(self, places: Sequence[int | None]) -> "SearchedPart":
+        """The same with the deviations at other places; ``None``: one is not told any more."""
+
+        def there(some: Iterable[int]) -> tuple[int, ...]:
+            return tuple(place for n in some if (place := places[n]) is not None)
+
+        causes = tuple((one, moved) for one, own in self.causes if (moved := there(own)))
+        return replace(self, causes=causes, explained=there(self.explained))
+
     def found(self, deviations: Sequence[Deviation]) -> list[DeviationCause]:
         """The causes, with these deviations."""
         return [replace(one, deviations=tuple(deviations[n] for n in own)) for one, own in self.causes]

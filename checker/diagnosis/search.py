@@ -6,13 +6,13 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from itertools import pairwise
 from time import process_time
 
 from rovercheck.checker.conformance.cones import LogCone
 from rovercheck.checker.conformance.numbers import PARAMETER
 from rovercheck.checker.conformance.recording import Raw
 from rovercheck.checker.diagnosis.change import TIERS, ChangeKind, ChartChange, Nearness
+from rovercheck.checker.diagnosis.durations import durations
 from rovercheck.checker.diagnosis.evidence import PartEvidence
 from rovercheck.checker.diagnosis.hypotheses import (
     age_changes,
@@ -45,8 +45,6 @@ from rovercheck.spec_model.lang.system import System
 
 SECONDS = 300.0
 """How long the causes of one part are looked for, in seconds of the processor."""
-
-MOST_DURATIONS = 40
 
 STAMPS = TIERS["always"]
 """When stamps that are taken otherwise are tried: before the many changes that are farther than this."""
@@ -189,7 +187,7 @@ class HypothesisSearch(ABC):
     def _changes(self, system: System, only: frozenset[str]) -> list[ChartChange]:
         found: list[ChartChange] = []
         found += written_changes(self._evidence.group.board, system)
-        found += timer_changes(system, self._durations(), only)
+        found += timer_changes(system, durations(self._evidence), only)
         found += mutant_changes(system)
         found += beginning_changes(system, only)
         found += during_changes(system, only)
@@ -210,23 +208,6 @@ class HypothesisSearch(ABC):
         """What the part might read by mistake, as far as it is recorded in all runs."""
         known = set.intersection(*(set(run.columns) for run in self._evidence.runs))
         return {n: v for n, v in signals_of(self._evidence.group.board).items() if n in known}
-
-    def _durations(self) -> list[int]:
-        """How many steps before a case something of the part changed."""
-        found: dict[int, int] = {}
-        names = [v.name for v in self._evidence.cone.system.inputs]
-        names += [o.var.name for o in self._evidence.cone.outputs]
-        for run in self._evidence.deviating:
-            columns = [c for n in names if (c := run.columns.get(n)) and not _ages(c)]
-            for case in run.cases(self._evidence.name)[:10]:
-                for edge in (case.first, case.last + 1):
-                    for back in range(1, min(edge, 700)):
-                        at = edge - back
-                        if any(at < len(c) and c[at] != c[at - 1] for c in columns):
-                            for steps in (back - 1, back, back + 1):
-                                found[steps] = found.get(steps, 0) + 1
-        likely = sorted(found, key=lambda n: (-found[n], n))[:MOST_DURATIONS]
-        return [*likely, 5, 10, 25, 50, 100, 150, 200, 250]
 
     def _cone(self, system: System) -> LogCone | None:
         """The changed part, or None where it has no meaning or no longer gives what is compared.
@@ -372,12 +353,6 @@ class _SingleChanges(HypothesisSearch):
 def _ratio(wanted: Raw, got: Raw) -> Iterator[tuple[Fraction, None]]:
     if wanted:
         yield (Fraction(got) / Fraction(wanted)).limit_denominator(1000), None
-
-
-def _ages(cells: Sequence[Raw | None]) -> bool:
-    """Whether a column changes in most rows."""
-    some = cells[:400]
-    return sum(a != b for a, b in pairwise(some)) > len(some) / 4
 
 
 __all__ = ["ExplainingCause", "HypothesisSearch", "SingleCauses", "single_causes"]

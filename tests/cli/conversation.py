@@ -14,8 +14,8 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.generate_tests import run as generating
 from rovercheck.checker.commands.reports import run as reporting
 from rovercheck.checker.compare import check, recorded_runs
+from rovercheck.checker.compare.beside import Run
 from rovercheck.checker.compare.environment import Environment
-from rovercheck.checker.compare.search import Run
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.generate import Aim
 from rovercheck.properties.catalogue import catalogue

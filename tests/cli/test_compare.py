@@ -13,8 +13,8 @@ from jsonschema import validate
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.compare import check, recorded_runs
+from rovercheck.checker.compare.beside import Run
 from rovercheck.checker.compare.environment import Environment
-from rovercheck.checker.compare.search import Run
 from rovercheck.spec_model.abstraction import boards
 from tests.compare import cross_faults
 from tests.compare.scenes import once

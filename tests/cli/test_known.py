@@ -13,9 +13,9 @@ from jsonschema import validate
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.compare import check
+from rovercheck.checker.compare.beside import Run
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.recorded_runs import counterexamples
-from rovercheck.checker.compare.search import Run
 from rovercheck.checker.conformance.known_file import known_of, known_text
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.lang.errors import ModelError

@@ -3,10 +3,9 @@
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
-from rovercheck.checker.compare.beside import played
+from rovercheck.checker.compare.beside import Run, played
 from rovercheck.checker.compare.check import RunCache
 from rovercheck.checker.compare.environment import Environment
-from rovercheck.checker.compare.search import Run
 from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 

@@ -13,13 +13,13 @@ import pytest
 from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values
 from rovercheck.checker.compare import StepMismatch, cross_check, effort, quick_check
-from rovercheck.checker.compare.beside import compared, rerun
+from rovercheck.checker.compare.beside import Run, compared, rerun
 from rovercheck.checker.compare.check import RunCache, recorded_suite
 from rovercheck.checker.compare.coverage import transitions
 from rovercheck.checker.compare.recorded_runs import counterexamples
 from rovercheck.checker.compare.reproduce import file_name, reproduction, script_of
 from rovercheck.checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance
-from rovercheck.checker.compare.search import CompareSearch, Run
+from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.smaller import Budget, smaller
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.testgen.scripts import blocks, steps

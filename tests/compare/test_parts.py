@@ -10,11 +10,11 @@ import pytest
 from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, Values
 from rovercheck.checker.compare import CompareResult, RecordedRun, effort
-from rovercheck.checker.compare.beside import answers, played
+from rovercheck.checker.compare.beside import Run, answers, played
 from rovercheck.checker.compare.recorded_runs import counterexamples
 from rovercheck.checker.compare.result import Allowance
 from rovercheck.checker.compare.run_follower import RunFollower
-from rovercheck.checker.compare.search import CompareSearch, Run
+from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.conformance.decoder import InputDecoder

@@ -40,6 +40,11 @@ def searched(groups: CauseGroups) -> Iterator[str]:
     if groups.left_out:
         runs = counted(groups.left_out, "run that deviates", "runs that deviate")
         yield f"Causes were looked for without {runs}, of which others show the deviations, too."
+    for part in groups.unfit:
+        yield (
+            f"{part}: runs that were tried for the causes found show more than these explain; "
+            "compare with --write-variant, then with --variant, tells what is left."
+        )
 
 
 def wrapped(text: str, indent: str = "") -> str:

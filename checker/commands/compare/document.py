@@ -165,6 +165,7 @@ class ComparedRow(TypedDict):
     causes: list[CauseGroup]
     """The findings: all deviations by cause."""
     causes_cut: list[CutSearchRow]
+    causes_unfit: list[str]
     """Where the search for causes came to no end."""
     failures: list[FailureRow]
     undecided: list[UndecidedRuns]
@@ -220,6 +221,7 @@ def _row(of: CrosscheckReport) -> ComparedRow:
         "causes_cut": [
             {"part": cut.part, "tried": cut.tried, "seconds": round(cut.seconds, 1)} for cut in of.groups.cut
         ],
+        "causes_unfit": list(of.groups.unfit),
         "failures": [_failure(f, _file_of(f, of)) for f in result.failures],
         "undecided": [
             {"part": part, "because": because, "runs": runs}

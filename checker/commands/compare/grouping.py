@@ -4,12 +4,15 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from rovercheck.checker.commands.compare.rounds import Rounds
+from rovercheck.checker.compare.deciding_runs import DecidingRuns
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
 from rovercheck.checker.compare.result import CompareResult
 from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
 from rovercheck.checker.conformance.follower import Behaviour
 from rovercheck.checker.conformance.known import KnownCause, KnownDeviation
+from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.conformance.tracker import UndecidedRow
 from rovercheck.checker.diagnosis.causes import (
     CauseGroups,
@@ -20,7 +23,7 @@ from rovercheck.checker.diagnosis.causes import (
     followed,
     split,
 )
-from rovercheck.checker.diagnosis.evidence import Evidence
+from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector
 from rovercheck.checker.diagnosis.known_causes import changed, no_longer_explained, that_hold
 from rovercheck.checker.diagnosis.known_charts import KnownCharts
 from rovercheck.spec_model.abstraction import Board
@@ -49,9 +52,12 @@ class CauseGrouping:
     unexplained: frozenset[DeviationScope] = field(default_factory=frozenset)
     charts: KnownCharts | None = None
     on_top: list[Deviation] = field(default_factory=list)
+    collector: EvidenceCollector = field(init=False)
     left: Mapping[str, Sequence[Deviation]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.collector = EvidenceCollector(self.board)
+        self._rounds = Rounds()
         self._behind: list[Deviation] = []
         self._found: KnownCharts | None = None
         if self.causes:
@@ -86,6 +92,32 @@ class CauseGrouping:
         assert charts is not None, "it has causes"
         return charts.follower(part)
 
+    def deciding(self, seed: int) -> DecidingRuns | None:
+        """Runs in which the causes found may turn out to be others; ``None``: no more are wanted."""
+        if not self.asked or self.groups is None:
+            return None
+        explained = {one.scope for part in self.groups.parts for one in part.deviations}
+        every = [one for cause in self.groups.causes for one in cause.deviations]
+        open_parts = {one.scope.part for one in every if one.scope not in explained}
+        made = [one for one in self.groups.parts if one.changes and one.deviations]
+        return self._rounds.following(self.board, made, open_parts, seed)
+
+    def shown(
+        self, parts: frozenset[str], deviations: Sequence[Deviation], explained: Sequence[Recording]
+    ) -> None:
+        """Takes what such runs show that the causes do not explain, and those of which they explain all."""
+        self._rounds.unfit, self._rounds.chosen = parts, deviations
+        self._rounds.explained += explained
+
+    @property
+    def unfit(self) -> tuple[str, ...]:
+        """The parts in which such runs show more than the causes explain in the end."""
+        return tuple(sorted(self._rounds.unfit))
+
+    def further(self) -> Sequence[Deviation]:
+        """What deviates in such runs alone, and has a cause of its own."""
+        return self._rounds.further
+
     def _grouped(
         self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
     ) -> CauseGroups:
@@ -94,7 +126,7 @@ class CauseGrouping:
         evidence = None
         doubtful = [] if self.charts is None else self.charts.doubtful()
         if any(self.knows(one) and one.scope.part in {c.part for c, _ in doubtful} for one in found):
-            evidence = followed(self.board, runs.runs, progress)
+            evidence = followed(self.board, runs.runs, progress, self.collector)
             whole, present = (
                 {one.scope for one in no_longer_explained(evidence, found, self.records, causes)}
                 for causes in zip(*doubtful, strict=True)
@@ -103,8 +135,8 @@ class CauseGrouping:
             self.groups = replace(self.groups, left_out=runs.of - len(runs.runs))
         parts = self._parts(found)
         if parts:
-            evidence = evidence or followed(self.board, runs.runs, progress)
-            groups = cause_groups(evidence, found, parts, self.seconds, progress)
+            evidence = evidence or followed(self.board, runs.runs, progress, self.collector)
+            groups = self._rounds.searched(evidence, found, parts, self.seconds, progress)
             left_out = runs.of - len(runs.runs)
             made = _that_hold(evidence, groups.parts) if self.asked else groups.parts
             causes = split(groups.causes, self.known)
@@ -173,7 +205,8 @@ class CauseGrouping:
             return by_itself(result.deviations)
         own = {one.scope for cause in self.groups.causes for one in cause.deviations}
         rest = by_itself(one for one in result.deviations if one.scope not in own)
-        return replace(self.groups, causes=(*self.groups.causes, *rest.causes))
+        causes = self._rounds.narrowed(self.groups.causes)
+        return replace(self.groups, causes=(*causes, *rest.causes), unfit=self.unfit)
 
     def _parts(self, found: Sequence[Deviation]) -> list[str]:
         ways = Counter(one.scope.part for one in found)

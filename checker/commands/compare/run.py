@@ -1,6 +1,6 @@
 """``rovercheck compare``: an implementation and the charts side by side, under the same inputs."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
@@ -19,7 +19,7 @@ from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.variant_file import FoundVariant, write_variant
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, reproduction
-from rovercheck.checker.compare.result import ALLOWED, RANDOM
+from rovercheck.checker.compare.result import ALLOWED, DECIDING, RANDOM
 from rovercheck.checker.compare.search import CompareSearch, Elsewhere
 from rovercheck.checker.compare.variants import board_named, boards_of
 from rovercheck.checker.conformance.known import KnownDeviation, KnownJudgement, shows
@@ -146,7 +146,17 @@ def _variant(result: CompareResult, grouping: CauseGrouping, address: str, varia
     steps = f"{result.compared:,} steps from seed {result.seed}"
     rest = counted(len(every), "deviation", "deviations")
     evidence = f"compare, {address}, {steps}: the changes explain {len(explained & every)} of {rest}."
+    evidence += "".join(_of_deciding(result, grouping))
     return FoundVariant(name, [*before, *(change for part in found for change in part.changes)], evidence)
+
+
+def _of_deciding(result: CompareResult, grouping: CauseGrouping) -> Iterator[str]:
+    """What the runs showed that were tried for the causes."""
+    for stage in result.stages:
+        if stage.kind == DECIDING and grouping.unfit:
+            yield f" More shows in runs that were tried for them, in {', '.join(grouping.unfit)}."
+        elif stage.kind == DECIDING:
+            yield f" Nothing else shows in {counted(stage.tried, 'run', 'runs')} tried for them."
 
 
 def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:

@@ -1,0 +1,154 @@
+"""Runs chosen for the causes found: they tell a limit, or a time, from others that explained as much."""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.fixed_runs import fixed
+from rovercheck.checker.compare.strategy import ENVIRONMENTS, environment
+from rovercheck.checker.diagnosis.limits import number_slots
+from rovercheck.checker.diagnosis.other_limits import between, other_limits
+from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
+from rovercheck.spec_model.abstraction import boards
+from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+
+OTHERS = """
+
+class Hotter(Heater):
+    limit, rest = 28, 260
+
+
+class Pierced(Heater):
+    "Switches off above 28, and at 27."
+    limit = 28
+
+    def step(self, given):
+        return super().step({**given, "temperature": 40} if given["temperature"] == 27 else given)
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("heater")
+    (made / "heater.py").write_text(HEATER, encoding="utf-8")
+    (made / "baseline.toml").write_text(BASELINE, encoding="utf-8")
+    (made / "firmware.py").write_text(FIRMWARE + OTHERS, encoding="utf-8")
+    return made
+
+
+def asked(folder: Path, firmware: str, *more: str) -> list[str]:
+    address = f"python:{folder / 'firmware.py'}:{firmware}"
+    return ["compare", "--model", str(folder / "heater.py"), "--impl", address, "--examples", "10",
+            "--mismatches", "0", "--output", str(folder / "out"), *more]  # fmt: skip
+
+
+def told(folder: Path, capsys: pytest.CaptureFixture[str], firmware: str, *more: str) -> Any:
+    assert run(asked(folder, firmware, "--json", *more)) is Exit.FAILED
+    return json.loads(capsys.readouterr().out)["results"][0]
+
+
+LIMIT = ("limit", "temperature > 22")
+TIME = ("timer", "after(5 s)")
+
+
+@pytest.mark.parametrize(
+    ("firmware", "changes"),
+    [
+        ("Hot", {(*LIMIT, "temperature > 25"): "any limit between 25 and 26 explains the same"}),
+        (
+            "Hotter",
+            {
+                (*LIMIT, "temperature > 28"): "any limit between 28 and 29 explains the same",
+                (*TIME, "after(5200 ms)"): "",
+            },
+        ),
+    ],
+)
+def test_a_cause_is_told_as_what_the_firmware_has(
+    firmware: str, changes: dict[tuple[str, ...], str], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A limit was the number of the fewest digits between two that the charts as drawn made runs meet."""
+    file = folder / f"{firmware}.toml"
+    result = told(folder, capsys, firmware, "--write-variant", str(file))
+    found = {tuple(one["change"][key] for key in ("kind", "old", "new")): one for one in result["causes"]}
+    assert found.keys() == changes.keys()
+    for key, note in changes.items():
+        assert found[key]["change"].get("note", "") == note
+    assert not result["causes_unfit"]
+    assert {one["kind"] for one in result["tried"]} == {
+        "fixed runs", "random runs", "runs for the causes found",
+    }  # fmt: skip
+    assert run(asked(folder, firmware, "--variant", str(file))) is Exit.AS_EXPECTED
+
+
+def test_what_no_cause_explains_in_these_runs_is_said(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(asked(folder, "Pierced", "--causes")) is Exit.FAILED
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Heater: runs that were tried for the causes found show more than these explain" in said
+
+
+def test_what_is_known_is_met_without_them(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What deviates in these runs alone is no known deviation, which would be gone the next time."""
+    known = folder / "known.toml"
+    assert run(asked(folder, "Hotter", "--write-known", str(known))) is Exit.FAILED
+    capsys.readouterr()
+    assert run(asked(folder, "Hotter", "--known", str(known), "--json")) is Exit.AS_EXPECTED
+    result = json.loads(capsys.readouterr().out)["results"][0]
+    assert {one["verdict"] for one in result["known"]} == {"seen"}
+
+
+def test_without_causes_none_are_tried(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    result = told(folder, capsys, "Hot")
+    assert [one["kind"] for one in result["tried"]] == ["fixed runs", "random runs"]
+
+
+# --- what they are made of --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "step", "number"),
+    [
+        (200, 300, "10", 11),
+        (24, 26, "1/10", 21),
+        (-1, 1, "1/10", 21),
+        ("54.9", 55, "1/100", 11),
+        (5, 5, "1", 0),
+    ],
+)
+def test_numbers_between_two_have_few_digits(low: int | str, high: int, step: str, number: int) -> None:
+    assert between(Fraction(low), Fraction(high)) == [
+        Fraction(low) + n * Fraction(step) for n in range(number)
+    ]
+
+
+def test_what_was_tried_is_left_out() -> None:
+    env = ENVIRONMENTS["board2"]
+    assert not list(fixed(env, env))
+    key = "limit", "ObstaclesDegraded", "everywhere", "d1, d2, d3 <= 300", "d1, d2, d3 <= 255"
+    made = environment(with_change(env.board, WrittenChange(*key)))
+    some = list(fixed(made, env))
+    assert some and sum(b.steps for _, one in some for b in one.blocks) < sum(
+        b.steps for _, one in fixed(made) for b in one.blocks
+    )
+    new = {value for name in ("d1", "d2", "d3") for value in made.values.aimed[name]}
+    assert 255 in new and 255 not in env.values.aimed["d1"]
+
+
+def test_boundaries_of_other_charts_are_aimed_at_too() -> None:
+    board = boards()["board2"]
+    slot = next(
+        one for one in number_slots(board.system, frozenset({"ObstaclesDegraded"})) if one.drawn == 300
+    )
+    assert slot.op is not None
+    found = slot.change(slot.op, Fraction(200), (Fraction(200), Fraction(300)))
+    others = tuple(other_limits(board, [found]))
+    aimed = Environment(board, {}, also=others).values.aimed
+    assert {210, 290} <= {value for name in ("d1", "d2", "d3") for value in aimed[name]}
