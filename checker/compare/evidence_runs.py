@@ -50,6 +50,7 @@ class EvidenceRuns:
 
     def choose(self, number: int, run: RecordedRun) -> None:
         """Keep a run that was chosen for causes and shows more than they explain."""
+        self.of += 1
         self.runs.append(run.recording)
         self.parts.append(frozenset())
         self.numbers.append(number)

@@ -93,6 +93,7 @@ def test_what_no_cause_explains_in_these_runs_is_said(
     assert run(asked(folder, "Pierced", "--causes")) is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
     assert "Heater: runs that were tried for the causes found show more than these explain" in said
+    assert "Causes were looked for without" not in said, "no run was left out"
 
 
 def test_what_is_known_is_met_without_them(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
