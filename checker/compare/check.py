@@ -19,6 +19,7 @@ from rovercheck.checker.compare.beside import (
 )
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.fixed_runs import fixed
+from rovercheck.checker.compare.known_changes import KnownChanges
 from rovercheck.checker.compare.own_runs import covering
 from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
@@ -28,7 +29,6 @@ from rovercheck.checker.compare.search import (
     CompareEffort,
     CompareSearch,
     Elsewhere,
-    KnownChanges,
     Leading,
     Progress,
     effort,

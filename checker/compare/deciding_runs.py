@@ -15,8 +15,7 @@ from rovercheck.checker.compare.strategy import environment
 from rovercheck.checker.compare.tried_runs import Share
 from rovercheck.spec_model.abstraction import Board
 
-EXAMPLES = 30
-"""Random runs among them."""
+RANDOM = "random run for the causes"
 
 
 @dataclass(frozen=True)
@@ -24,13 +23,14 @@ class DecidingRuns:
     """Runs of the charts with the causes found, and the ``parts`` of a board that these explain.
 
     ``board`` is that with the causes, ``others`` are boards with other changes in their place that explain as
-    much; ``drawn`` is the one as drawn, whose fixed runs were tried.
+    much; ``drawn`` is the one as drawn, whose fixed runs were tried.  ``examples`` are drawn at random.
     """
 
     drawn: Board
     board: Board
     others: Sequence[Board]
     parts: frozenset[str]
+    examples: int
     seed: int
 
     def runs(self) -> Iterator[Run]:
@@ -41,7 +41,8 @@ class DecidingRuns:
         for label, stimulus in fixed(env, environment(self.drawn)):
             yield f"{label}, for the causes", played(env.board, env.fields, stimulus)
         drawn: list[Run] = []
-        Share(EXAMPLES, self.seed).each(env, lambda steps: drawn.append(("random run for the causes", steps)))
+        if self.examples:
+            Share(self.examples, self.seed).each(env, lambda steps: drawn.append((RANDOM, steps)))
         yield from drawn
 
 

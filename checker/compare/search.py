@@ -1,18 +1,17 @@
 """The search for mismatches: fixed runs, recorded runs, then random ones that Hypothesis draws."""
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from random import SystemRandom
-from typing import Protocol
 
 from rovercheck.checker.adapters.implementation import Implementation, notes
 from rovercheck.checker.compare.beside import ComparedStep, Run, StepMismatch, differing, rerun
 from rovercheck.checker.compare.coverage import TransitionCoverage
-from rovercheck.checker.compare.deciding_runs import DecidingRuns
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.evidence_runs import EvidenceRuns
+from rovercheck.checker.compare.known_changes import KnownChanges
 from rovercheck.checker.compare.notable_runs import NotableRuns
 from rovercheck.checker.compare.result import (
     ALLOWED,
@@ -36,9 +35,8 @@ from rovercheck.checker.compare.tried_runs import (
     shares,
 )
 from rovercheck.checker.conformance.deviations import Deviation, DeviationTally, WholeEvidence
-from rovercheck.checker.conformance.follower import Behaviour, Situation
+from rovercheck.checker.conformance.follower import Situation
 from rovercheck.checker.conformance.recording import Recording
-from rovercheck.checker.conformance.tracker import UndecidedRow
 from rovercheck.spec_model.lang.errors import ModelError
 
 CI_SEED = 5
@@ -75,42 +73,6 @@ Elsewhere = Callable[[Sequence[Share]], Iterable[TriedRun]]
 """Tries the random runs of some shares, and says what came of each, in their order.  Raises ``RunsLost``."""
 Leading = Callable[[Sequence[Deviation], EvidenceRuns], Sequence[Deviation]]
 """Says which deviations are to be told in full, the first ones first, from all of them and their runs."""
-
-
-class KnownChanges(Protocol):
-    """The charts with the changes that explain what is known, and what runs are beside them."""
-
-    def followed(
-        self, run: RecordedRun, found: Behaviour
-    ) -> tuple[tuple[UndecidedRow, ...], tuple[Deviation, ...]]:
-        """What is undecided of a run, and what deviates on top of what is known."""
-
-    def told(self, found: Sequence[Deviation]) -> Sequence[Deviation]:
-        """What is to be told of deviations from the charts as drawn, and those on top of what is known.
-
-        Once causes were looked for, also those on top of these.
-        """
-
-    def follower(self, part: str) -> RunFollower:
-        """What follows a part with the changes on top of which it deviates."""
-
-    @property
-    def left(self) -> Mapping[str, Sequence[Deviation]]:
-        """Of runs kept as evidence, by their origins, what deviates on top of the causes found."""
-
-    def deciding(self, seed: int) -> DecidingRuns | None:
-        """More runs, in which the causes found may turn out to be others; ``None``: no more are wanted."""
-
-    def shown(
-        self, parts: frozenset[str], deviations: Sequence[Deviation], explained: Sequence[Recording]
-    ) -> None:
-        """Takes the parts in which such runs show what the causes do not explain, and what deviates there.
-
-        ``explained`` are the runs of which the causes explain all.
-        """
-
-    def further(self) -> Sequence[Deviation]:
-        """What deviates in such runs alone, and has a cause of its own."""
 
 
 class Enough(BaseException):
@@ -226,8 +188,10 @@ class CompareSearch:
             CompareStage(FIXED, self.tried[FIXED], None, "" if self._complete else why),
             CompareStage(RANDOM, drawn, self.effort.examples, "" if drawn >= self.effort.examples else why),
         )
-        for_causes = [CompareStage(DECIDING, self.tried[DECIDING], None)] if DECIDING in self.tried else []
-        return (*stages, *for_causes)
+        if DECIDING not in self.tried:
+            return stages
+        cut = "interrupted" if self.interrupted and self.doing == DECIDING else ""
+        return (*stages, CompareStage(DECIDING, self.tried[DECIDING], None, cut))
 
     @property
     def _hopeless(self) -> bool:
@@ -237,12 +201,11 @@ class CompareSearch:
         """Make the mismatches small that are told in full, what explains most first."""
         self.doing = "looking for causes"
         first = self.leading(self._deviations(), self._evidence)
-        while self.known is not None and (more := self.known.deciding(self.effort.seed)) is not None:
-            if not self._decided(more):
-                break
+        while self._decided():
             first = self.leading(self._deviations(), self._evidence)
-        if self.known is not None:
-            self.tally.add(self.known.further(), self.tally.evidence or WholeEvidence())
+        for one in () if self.known is None else self.known.further():
+            self.tally.add([one], self.tally.evidence or WholeEvidence())
+            self.notable.more(*self._evidence.run(self.env.board, one.origin), [one])
         for origin, on_top in ({} if self.known is None else self.known.left).items():
             self.notable.more(*self._evidence.run(self.env.board, origin), on_top)
         todo = [self._mismatch(one) for one in first[: self.allowance.mismatches]]
@@ -314,28 +277,35 @@ class CompareSearch:
             self._runs[run.origin, one.first.tick] = run.up_to(one.first.tick)
         self.tally.add(groups.values(), evidence or WholeEvidence(), run.origin)
 
-    def _decided(self, more: DecidingRuns) -> bool:
-        """Whether some of these runs shows that the causes found are others, or not all.
+    def _decided(self) -> bool:
+        """Whether some run that is chosen for the causes found shows that they are others, or not all.
 
         Only such runs are evidence, of the parts in which they show it: the causes explain the others.
         """
-        assert self.known is not None
+        effort = self.effort
+        more = None if self.known is None else self.known.deciding(effort.examples, effort.seed)
+        if self.known is None or more is None:
+            return False
         self.doing = DECIDING
         self.tried.setdefault(DECIDING, 0)
         trier, follower = RunTrier(more.board, self.implementation, always=True), RunFollower(more.board)
         shown, explained = set[str](), list[Recording]()
         for origin, steps in more.runs():
-            with suppress(ModelError):  # the charts as drawn may assume that such inputs do not come
+            try:
                 drawn = tuple(rerun(self.env.board, (step.inputs for step in steps)))
-                run = replace(trier.tried(self._origin(origin), steps), met=RunCoverage.of(more.board, drawn))
-                self._count(run)
-                own = RecordedRun(self.env.board, run.origin, drawn[: len(run.outputs)], run.outputs)
-                left = self._parts_beside(follower, run) & more.parts
-                if left:
-                    shown |= left
-                    self._chosen(own, left)
-                elif own.steps:
-                    explained.append(own.recording)
+            except ModelError:  # the charts as drawn assume that such inputs do not come
+                continue
+            run = replace(trier.tried(self._origin(origin), steps), met=RunCoverage.of(more.board, drawn))
+            if run.failed is not None:
+                run = replace(run, failed=replace(run.failed, steps=drawn[: len(run.failed.steps)]))
+            self._count(run)
+            own = RecordedRun(self.env.board, run.origin, drawn[: len(run.outputs)], run.outputs)
+            left = self._parts_beside(follower, run) & more.parts
+            if left:
+                shown |= left
+                self._chosen(own, left)
+            elif own.steps:
+                explained.append(own.recording)
             self.progress(self)
             if self._hopeless:
                 break

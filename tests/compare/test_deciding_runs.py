@@ -1,20 +1,29 @@
 """Runs chosen for the causes found: they tell a limit, or a time, from others that explained as much."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from rovercheck.checker.adapters import python
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.compare import rounds
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.compare import cross_check, effort
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.strategy import ENVIRONMENTS, environment
+from rovercheck.checker.compare.variants import of_model
+from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause, PartChanges
+from rovercheck.checker.diagnosis.evidence import Evidence
+from rovercheck.checker.diagnosis.hypotheses import timer_changes
 from rovercheck.checker.diagnosis.limits import number_slots
 from rovercheck.checker.diagnosis.other_limits import between, other_limits
 from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
+from rovercheck.checker.model.load import load
 from rovercheck.spec_model.abstraction import boards
 from tests.model_files.files import BASELINE, FIRMWARE, HEATER
 
@@ -109,6 +118,30 @@ def test_what_is_known_is_met_without_them(folder: Path, capsys: pytest.CaptureF
 def test_without_causes_none_are_tried(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     result = told(folder, capsys, "Hot")
     assert [one["kind"] for one in result["tried"]] == ["fixed runs", "random runs"]
+
+
+@pytest.mark.parametrize(
+    ("with_others", "has_change", "further"),
+    [(True, True, False), (False, True, True), (False, False, False)],
+)
+def test_what_only_these_runs_show_is_told_if_it_has_a_cause_of_its_own(
+    with_others: bool, has_change: bool, further: bool, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What shares its cause with others is told as these, and what has none is said of the part."""
+    board = of_model(load(folder / "heater.py"))
+    firmware = python.start(f"{folder / 'firmware.py'}:Brief", board, isolated=False)
+    [drawn, *_] = cross_check(board, firmware, effort("ci", 5)).deviations
+    alone = replace(drawn, scope=replace(drawn.scope, charts=("Heater: elsewhere",)))
+    change = next(timer_changes(board.system, [249], frozenset({"Heater"})))
+    every = (drawn, alone) if with_others else (alone,)
+    cause = DeviationCause("Heater", change if has_change else None, every)
+    made = CauseGroups((cause,), parts=(PartChanges("Heater", (change,), (drawn, alone)),))
+    monkeypatch.setattr(rounds, "cause_groups", lambda *_, **__: made)
+    searched = rounds.Rounds(chosen=[alone])
+    groups = searched.searched(Evidence(board, (), {}), [drawn], ["Heater"], 1, lambda _: None)
+    assert searched.further == ([alone] if further else [])
+    assert [one.deviations for one in groups.causes] == ([every[:1]] if has_change else [])
+    assert groups.parts[0].deviations == ((drawn, alone) if further else (drawn,))
 
 
 # --- what they are made of --------------------------------------------------------------------------------

@@ -92,7 +92,7 @@ class CauseGrouping:
         assert charts is not None, "it has causes"
         return charts.follower(part)
 
-    def deciding(self, seed: int) -> DecidingRuns | None:
+    def deciding(self, examples: int, seed: int) -> DecidingRuns | None:
         """Runs in which the causes found may turn out to be others; ``None``: no more are wanted."""
         if not self.asked or self.groups is None:
             return None
@@ -100,7 +100,7 @@ class CauseGrouping:
         every = [one for cause in self.groups.causes for one in cause.deviations]
         open_parts = {one.scope.part for one in every if one.scope not in explained}
         made = [one for one in self.groups.parts if one.changes and one.deviations]
-        return self._rounds.following(self.board, made, open_parts, seed)
+        return self._rounds.following(self.board, made, open_parts, examples, seed)
 
     def shown(
         self, parts: frozenset[str], deviations: Sequence[Deviation], explained: Sequence[Recording]

@@ -22,6 +22,9 @@ from rovercheck.spec_model.lang.errors import ModelError
 MOST = 4
 """How often runs are chosen: a limit is told to one digit more each time."""
 
+MOST_EXAMPLES = 30
+"""Random runs among those that are chosen."""
+
 Keys = tuple[tuple[str, ...], ...]
 
 
@@ -43,7 +46,7 @@ class Rounds:
     _last: CauseSearch | None = field(default=None, repr=False)
 
     def following(
-        self, board: Board, made: Sequence[PartChanges], but: Collection[str], seed: int
+        self, board: Board, made: Sequence[PartChanges], but: Collection[str], examples: int, seed: int
     ) -> DecidingRuns | None:
         """Runs for the changes of some parts, to be looked at in all of these ``but`` some.
 
@@ -60,7 +63,8 @@ class Rounds:
         self._number, self._tried, self.unfit = self._number + 1, keys, frozenset()
         parts = frozenset(part.part for part in made) - frozenset(but)
         others = tuple(other_limits(board, changes))
-        return DecidingRuns(board, changed, others, parts, seed + self._number)
+        examples = min(examples, MOST_EXAMPLES)
+        return DecidingRuns(board, changed, others, parts, examples, seed + self._number)
 
     def searched(
         self,
