@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, replace
 from functools import partial
 
-from rovercheck.checker.conformance.deviations import Deviation
+from rovercheck.checker.conformance.deviations import Deviation, DeviationScope
 from rovercheck.checker.conformance.recording import Recording
 from rovercheck.checker.diagnosis.change import ChartChange
 from rovercheck.checker.diagnosis.evidence import Evidence, EvidenceCollector, PartEvidence
@@ -66,6 +66,25 @@ class CauseSearch:
                 kept.setdefault(part.part, []).append((evidence, part.moved(moved)))
         return kept
 
+    def but_for(self, before: "CauseSearch", told: Collection[DeviationScope]) -> "CauseSearch":
+        """This one, with what was found before of parts in which that explains more of what is told."""
+        here, there = ({name: one.of(name) for name in self.names} for one in (self, before))
+        lost = [n for n in self.names if len(there[n] & set(told)) > len(here[n] & set(told))]
+        if not lost:
+            return self
+        kept = before.kept(self.deviations, lost)
+        rest = [pair for pair in self.parts if pair[1].part not in kept]
+        return CauseSearch(self.deviations, [*rest, *(pair for some in kept.values() for pair in some)])
+
+    @property
+    def names(self) -> list[str]:
+        return list(dict.fromkeys(part.part for _, part in self.parts))
+
+    def of(self, name: str) -> set[DeviationScope]:
+        """What is explained of a part."""
+        own = (part.explained for _, part in self.parts if part.part == name)
+        return {self.deviations[n].scope for some in own for n in some}
+
 
 def by_itself(deviations: Iterable[Deviation]) -> CauseGroups:
     """Every deviation as one of its own."""
@@ -111,8 +130,9 @@ def cause_groups(
             wanted.setdefault(one.name, []).append(one)
     works = [partial(searched, some, deviations, seconds) for some in wanted.values()]
     done: dict[int, list[SearchedPart]] = {}
-    said = f"looking for causes in {len(works)} parts"
-    progress(said)
+    said = f"looking for causes in {len(works)} part{'s' * (len(works) != 1)}"
+    if works:
+        progress(said)
     for number, found in beside(works, at_once or cores()):
         done[number] = found
         progress(f"{said}, {len(done)} of them searched")
@@ -124,7 +144,8 @@ def cause_groups(
     pairs += [pair for some in kept.values() for pair in some]
     order = {one.name: place for place, one in enumerate(evidence.parts)}
     pairs.sort(key=lambda pair: order.get(pair[0].name, len(order)))
-    progress(f"{said}, all of them searched; comparing what was found in several")
+    if works:
+        progress(f"{said}, all of them searched; comparing what was found in several")
     every = explained_elsewhere(evidence.board, pairs, deviations, seconds, at_once or cores())
     every = read_alike(evidence, every, deviations)
     cut = [one.cut for one in every if one.cut is not None]

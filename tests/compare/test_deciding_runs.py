@@ -103,6 +103,7 @@ def test_what_no_cause_explains_in_these_runs_is_said(
     said = " ".join(capsys.readouterr().out.split())
     assert "Heater: runs that were tried for the causes found show more than these explain" in said
     assert "Causes were looked for without" not in said, "no run was left out"
+    assert "cause: Heater behaves as with a limit of 30 °C" in said, "it explains the runs before"
 
 
 def test_what_is_known_is_met_without_them(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

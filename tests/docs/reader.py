@@ -24,7 +24,7 @@ PROMPT = re.compile(r"^tick \d+, [\d.]+ m?s> (.+)$")
 
 PROGRESS = re.compile(
     r"(?m)^(?:(?:\d+ of [\d,]+(?: [a-z]+)?, )?(?:\d+ (?:h|min|s) )+so far\b.*"
-    r"|following \S+|looking for causes in \d+ parts(?:, \d+ of them searched)?)\n"
+    r"|following \S+|looking for causes in \d+ parts?(?:, \d+ of them searched)?)\n"
 )
 
 

@@ -42,8 +42,8 @@ def searched(groups: CauseGroups) -> Iterator[str]:
         yield f"Causes were looked for without {runs}, of which others show the deviations, too."
     for part in groups.unfit:
         yield (
-            f"{part}: runs that were tried for the causes found show more than these explain; "
-            "compare with --write-variant, then with --variant, tells what is left."
+            f"{part}: runs that were tried for the causes found show more than these explain: what they "
+            "say is not exact. Compare with --write-variant, then with --variant, to see what is left."
         )
 
 

@@ -79,6 +79,10 @@ class Rounds:
         every = [*found, *(one for one in self.chosen if one.scope not in told)]
         again = parts if self._last is None else self.unfit
         groups = cause_groups(evidence, every, again, seconds, progress, before=self._last)
+        if self._last is not None and groups.search is not None:
+            better = groups.search.but_for(self._last, told)
+            if better is not groups.search:  # what explains these runs, too, explains less of the others
+                groups = cause_groups(evidence, every, (), seconds, progress, before=better)
         self._last = groups.search
         causes = []
         self.further = []
@@ -104,7 +108,7 @@ class Rounds:
         runs = [decoded_run(board, run) for run in self.explained]
         return tuple(
             replace(one, change=narrowed(one.change, parts[one.part], runs))
-            if one.change is not None and one.part in parts
+            if one.change is not None and one.part in parts.keys() - self.unfit
             else one
             for one in causes
         )
