@@ -123,10 +123,10 @@ class NumberSlot:
 
 
 def _between(span: tuple[Fraction, Fraction] | None) -> str:
-    if span is None or span[0] == span[1]:
+    if span is None:
         return ""
     low, high = (f"{float(end):.6g}" for end in span)
-    return f"any limit between {low} and {high} explains the same"
+    return f"any limit between {low} and {high} explains the same" if low != high else ""
 
 
 def number_slots(system: System, only: frozenset[str]) -> Iterator[NumberSlot]:

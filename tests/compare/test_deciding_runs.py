@@ -177,6 +177,14 @@ def test_what_was_tried_is_left_out() -> None:
     assert 255 in new and 255 not in env.values.aimed["d1"]
 
 
+def test_two_ends_that_read_the_same_are_no_note() -> None:
+    """It said "any limit between 54.5 and 54.5 explains the same", of 54.5 and the number next to it."""
+    slot = next(one for one in number_slots(boards()["board2"].system, frozenset({"ObstaclesDegraded"})))
+    near = Fraction(290) - Fraction(1, 10**6)
+    assert slot.change(slot.op, Fraction(290), (near, Fraction(290))).note == ""
+    assert "between 289.9 and 290" in slot.change(slot.op, Fraction(290), (near - Fraction(".1"), near)).note
+
+
 def test_boundaries_of_other_charts_are_aimed_at_too() -> None:
     board = boards()["board2"]
     slot = next(
