@@ -3,9 +3,9 @@
     python -m benchmarks.slx_large [REPETITIONS]
 
 The chart has 120 states (10 with 11 each), 360 transitions, 150 junctions and 70 functions, half of them
-graphical and half of MATLAB.  ``read`` is the file as the neutral model, ``import`` also the system that is made
-of it and 1,000 steps of both readings, ``graph`` the file read and drawn.  Told is the shortest time of some
-repetitions, in seconds of the processor, the start of Python included.
+graphical and half of MATLAB.  ``read`` is the file as the neutral model, ``import`` also the system that is
+made of it and 1,000 steps of both readings, ``graph`` the file read and drawn.  Told is the shortest time of
+some repetitions, in seconds of the processor, the start of Python included.
 """
 
 import sys
@@ -19,7 +19,12 @@ from rovercheck.checker.simulink.writer.packages import WrittenModel
 
 OUTER, INNER, FUNCTIONS = 10, 11, 70
 STATES, TRANSITIONS, JUNCTIONS = OUTER * (INNER + 1), 360, 150
-READ = "import sys; from pathlib import Path; from rovercheck.checker.simulink.model import read_model; read_model(Path(sys.argv[1]))"
+READ = """\
+import sys
+from pathlib import Path
+from rovercheck.checker.simulink.model import read_model
+read_model(Path(sys.argv[1]))
+"""
 
 
 def drawn() -> WrittenModel:
