@@ -314,11 +314,12 @@ class CompareSearch:
 
     @staticmethod
     def _parts_beside(follower: RunFollower, run: TriedRun) -> frozenset[str]:
-        """The parts in which a run differs from what is followed."""
+        """The parts in which a run differs from what is followed, or may do so as they are not decided."""
         if not differing(run.steps, run.outputs):
             return frozenset()
         found = follower.behaviour(RecordedRun(follower.board, run.origin, run.steps, run.outputs))
-        return frozenset(scope.part for scope in found.tally.groups)
+        differ = frozenset(scope.part for scope in found.tally.groups)
+        return differ or frozenset(one.part for one in found.undecided)
 
     def _chosen(self, run: RecordedRun, parts: Collection[str]) -> None:
         found = self._follower.behaviour(run).tally

@@ -8,7 +8,7 @@ from rovercheck.checker.conformance.decoder import InputDecoder
 from rovercheck.checker.conformance.follower import Behaviour, BoardFollower
 from rovercheck.checker.conformance.mismatch import LogMismatch
 from rovercheck.checker.conformance.program import Known
-from rovercheck.checker.conformance.recording import Cells, Raw, Recording
+from rovercheck.checker.conformance.recording import Cells, LogBlock, Raw, Recording
 from rovercheck.checker.conformance.signals import Vocabulary
 from rovercheck.checker.conformance.tracker import TrackedRow, Tracker
 from rovercheck.spec_model.abstraction import Board
@@ -50,6 +50,16 @@ class DecodedRun:
 
     def __len__(self) -> int:
         return len(self.ticks)
+
+    def take(self, block: LogBlock, seen: Mapping[str, Cells], outputs: Mapping[str, str]) -> None:
+        """More rows: what the charts see in them, and the outputs by the names of their variables."""
+        for name, cells in seen.items():
+            self.columns[name] += cells
+        for name, signal in outputs.items():
+            self.columns[name] += block.values[signal]
+        self.ticks += block.ticks
+        self.lines += block.lines
+        self.missing += block.missing
 
     def cases(self, part: str) -> list[DeviatingCase]:
         """The cases of a part."""
@@ -124,13 +134,7 @@ class EvidenceCollector:
         for block in run.blocks():
             seen = decoder.decode(block)
             follower.block(block, seen)
-            for name, cells in seen.items():
-                decoded.columns[name] += cells
-            for name, signal in outputs.items():
-                decoded.columns[name] += block.values[signal]
-            decoded.ticks += block.ticks
-            decoded.lines += block.lines
-            decoded.missing += block.missing
+            decoded.take(block, seen, outputs)
         watch.tell(decoded)
         self._behaviours[run.name] = follower.end()
         self._runs.setdefault(key, []).append(decoded)
@@ -193,13 +197,7 @@ def decoded_run(board: Board, run: Recording) -> DecodedRun:
     outputs = {o.var.name: o.name for o in board.outputs if o.name in run.signals}
     found = DecodedRun(run, {n: [] for n in (*decoder.seen, *outputs)}, [], [], [])
     for block in run.blocks():
-        for name, cells in decoder.decode(block).items():
-            found.columns[name] += cells
-        for name, signal in outputs.items():
-            found.columns[name] += block.values[signal]
-        found.ticks += block.ticks
-        found.lines += block.lines
-        found.missing += block.missing
+        found.take(block, decoder.decode(block), outputs)
     return found
 
 

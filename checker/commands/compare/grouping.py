@@ -122,7 +122,8 @@ class CauseGrouping:
         self, found: Sequence[Deviation], runs: EvidenceRuns, progress: Callable[[str], None]
     ) -> CauseGroups:
         """The deviations from the charts as drawn by cause."""
-        self.groups = by_itself(found)
+        if self.groups is None:  # what was found before is kept, should this be interrupted
+            self.groups = by_itself(found)
         evidence = None
         doubtful = [] if self.charts is None else self.charts.doubtful()
         if any(self.knows(one) and one.scope.part in {c.part for c, _ in doubtful} for one in found):

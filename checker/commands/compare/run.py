@@ -146,7 +146,8 @@ def _variant(result: CompareResult, grouping: CauseGrouping, address: str, varia
     steps = f"{result.compared:,} steps from seed {result.seed}"
     rest = counted(len(every), "deviation", "deviations")
     evidence = f"compare, {address}, {steps}: the changes explain {len(explained & every)} of {rest}."
-    evidence += "".join(_of_deciding(result, grouping))
+    if every <= explained:  # else these runs were looked at in some parts alone
+        evidence += "".join(_of_deciding(result, grouping))
     return FoundVariant(name, [*before, *(change for part in found for change in part.changes)], evidence)
 
 
@@ -155,7 +156,7 @@ def _of_deciding(result: CompareResult, grouping: CauseGrouping) -> Iterator[str
     for stage in result.stages:
         if stage.kind == DECIDING and grouping.unfit:
             yield f" More shows in runs that were tried for them, in {', '.join(grouping.unfit)}."
-        elif stage.kind == DECIDING:
+        elif stage.kind == DECIDING and not stage.because:
             yield f" Nothing else shows in {counted(stage.tried, 'run', 'runs')} tried for them."
 
 
