@@ -18,7 +18,7 @@ from rovercheck.checker.compare import tried_runs
 from rovercheck.checker.compare.tried_runs import shares
 from rovercheck.checker.extras import CLUSTER
 from rovercheck.checker.io.packed_files import PackedFiles
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 from tests.process.cluster import LocalCluster, local_cluster
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -64,9 +64,7 @@ def ways(cluster: LocalCluster | None, monkeypatch: pytest.MonkeyPatch) -> list[
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
-    (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (tmp_path / "firmware.py").write_text(FRAIL, encoding="utf-8")
+    heater_files(tmp_path, FRAIL)
     (tmp_path / "rests").mkdir()
     (tmp_path / "rests" / "__init__.py").touch()
     (tmp_path / "rests" / "of_heater.py").write_text(SHORT, encoding="utf-8")

@@ -19,7 +19,7 @@ from rovercheck.checker.commands.compare.places import ImplementationPlaces
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.compare.variants import of_model
 from rovercheck.checker.model.load import load
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 from tests.render.test_exits_ci import valid
 from tests.render.test_page import Reader
 from tests.schemas import published
@@ -74,9 +74,7 @@ Heater = "rtY.state"
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     found = tmp_path_factory.mktemp("reports")
-    (found / "heater.py").write_text(HEATER, encoding="utf-8")
-    (found / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (found / "firmware.py").write_text(FIRMWARE + CRASH, encoding="utf-8")
+    heater_files(found, FIRMWARE + CRASH)
     (found / "c").mkdir()
     (found / "c" / "heater.c").write_text(IN_C, encoding="utf-8")
     (found / "c" / "heater.h").write_text(HEADER, encoding="utf-8")

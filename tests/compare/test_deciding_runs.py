@@ -12,12 +12,22 @@ from rovercheck.checker.adapters import python
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.compare import rounds
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.compare import cross_check, effort
+from rovercheck.checker.compare import cross_check, effort, search
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.fixed_runs import fixed
+from rovercheck.checker.compare.run_follower import RecordedRun, RunFollower
 from rovercheck.checker.compare.strategy import ENVIRONMENTS, environment
 from rovercheck.checker.compare.variants import of_model
-from rovercheck.checker.diagnosis.causes import CauseGroups, DeviationCause, PartChanges
+from rovercheck.checker.conformance.deviations import DeviationTally
+from rovercheck.checker.conformance.follower import Behaviour
+from rovercheck.checker.conformance.tracker import UndecidedRow
+from rovercheck.checker.diagnosis.causes import (
+    CauseGroups,
+    CauseSearch,
+    DeviationCause,
+    PartChanges,
+    cause_groups,
+)
 from rovercheck.checker.diagnosis.evidence import Evidence
 from rovercheck.checker.diagnosis.hypotheses import timer_changes
 from rovercheck.checker.diagnosis.limits import number_slots
@@ -25,7 +35,7 @@ from rovercheck.checker.diagnosis.other_limits import between, other_limits
 from rovercheck.checker.diagnosis.variant import WrittenChange, with_change
 from rovercheck.checker.model.load import load
 from rovercheck.spec_model.abstraction import boards
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 
 OTHERS = """
 
@@ -45,10 +55,7 @@ class Pierced(Heater):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("heater")
-    (made / "heater.py").write_text(HEATER, encoding="utf-8")
-    (made / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (made / "firmware.py").write_text(FIRMWARE + OTHERS, encoding="utf-8")
-    return made
+    return heater_files(made, FIRMWARE + OTHERS)
 
 
 def asked(folder: Path, firmware: str, *more: str) -> list[str]:
@@ -90,6 +97,7 @@ def test_a_cause_is_told_as_what_the_firmware_has(
     for key, note in changes.items():
         assert found[key]["change"].get("note", "") == note
     assert not result["causes_unfit"]
+    assert "Nothing else shows in" in file.read_text(encoding="utf-8")
     assert {one["kind"] for one in result["tried"]} == {
         "fixed runs", "random runs", "runs for the causes found",
     }  # fmt: skip
@@ -99,11 +107,58 @@ def test_a_cause_is_told_as_what_the_firmware_has(
 def test_what_no_cause_explains_in_these_runs_is_said(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(asked(folder, "Pierced", "--causes")) is Exit.FAILED
+    """The evidence of the variant said nothing of it, or that nothing else shows in these runs."""
+    file = folder / "pierced.toml"
+    assert run(asked(folder, "Pierced", "--write-variant", str(file))) is Exit.FAILED
+    evidence = file.read_text(encoding="utf-8")
+    assert "More shows in runs that were tried for them, in Heater." in evidence
+    assert "Nothing else" not in evidence
     said = " ".join(capsys.readouterr().out.split())
     assert "Heater: runs that were tried for the causes found show more than these explain" in said
     assert "Causes were looked for without" not in said, "no run was left out"
     assert "cause: Heater behaves as with a limit of 30 °C" in said, "it explains the runs before"
+
+
+def test_an_interrupted_second_search_keeps_the_causes_of_the_first(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After Ctrl-C each deviation was told without the change that had been found."""
+    searches = []
+
+    def searched(*given: Any, before: CauseSearch | None = None) -> CauseGroups:
+        searches.append(before)
+        if before is not None:
+            raise KeyboardInterrupt
+        return cause_groups(*given)
+
+    monkeypatch.setattr(rounds, "cause_groups", searched)
+    file = folder / "interrupted.toml"
+    result = told(folder, capsys, "Pierced", "--write-variant", str(file))
+    assert len(searches) == 2
+    assert [one["change"]["old"] for one in result["causes"]] == ["temperature > 22"]
+    assert "Nothing else" not in file.read_text(encoding="utf-8")
+
+
+def test_a_run_that_is_not_decided_beside_the_causes_speaks_against_them(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It differs from the charts with the causes, and was taken for one that they explain."""
+    made: list[RunFollower] = []
+
+    class Undecided(RunFollower):
+        """All but the first one, which follows the charts as drawn, decides nothing."""
+
+        def behaviour(self, run: RecordedRun) -> Behaviour:
+            made.append(self)
+            found = super().behaviour(run)
+            if self is made[0]:
+                return found
+            row = UndecidedRow(1, "Heater", "it may be in too many states")
+            return replace(found, deviations=(), undecided=(row,), tally=DeviationTally())
+
+    monkeypatch.setattr(search, "RunFollower", Undecided)
+    result = told(folder, capsys, "Pierced", "--causes")
+    assert result["causes_unfit"] == ["Heater"] and len(set(map(id, made))) > 1
 
 
 def test_what_is_known_is_met_without_them(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 
 HOTTER = """
 
@@ -29,10 +29,7 @@ class HotAndOdd(Heater):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("heater")
-    (made / "heater.py").write_text(HEATER, encoding="utf-8")
-    (made / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (made / "firmware.py").write_text(FIRMWARE + HOTTER, encoding="utf-8")
-    return made
+    return heater_files(made, FIRMWARE + HOTTER)
 
 
 @pytest.fixture(scope="module")

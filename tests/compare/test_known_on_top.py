@@ -12,7 +12,7 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.compare import grouping
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.diagnosis.causes import CauseGroups
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 
 LATE = """
 
@@ -32,9 +32,7 @@ WARM = ((2, 10), (60, 24), (650, 20))
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("heater")
-    (made / "heater.py").write_text(HEATER, encoding="utf-8")
-    (made / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (made / "firmware.py").write_text(FIRMWARE + LATE, encoding="utf-8")
+    heater_files(made, FIRMWARE + LATE)
     rows = [{"temperature": t, "door_open": False} for steps, t in WARM for _ in range(steps)]
     runs = made / "runs"
     runs.mkdir()

@@ -19,7 +19,7 @@ from rovercheck.checker.conformance.deviations import Deviation
 from rovercheck.checker.diagnosis.causes import by_itself, cause_groups, followed, split
 from rovercheck.checker.diagnosis.search import SECONDS
 from rovercheck.checker.model.load import load
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 
 DEAF = """
 
@@ -33,10 +33,7 @@ class Deaf(Heater):
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
-    (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (tmp_path / "firmware.py").write_text(FIRMWARE + DEAF, encoding="utf-8")
-    return tmp_path
+    return heater_files(tmp_path, FIRMWARE + DEAF)
 
 
 def asked(folder: Path, firmware: str, *more: str) -> list[str]:

@@ -20,16 +20,13 @@ from rovercheck.spec_model.abstraction.stamps import NOW
 from rovercheck.spec_model.lang.domain import chosen
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import Assumption
-from tests.model_files.files import BASELINE, FIRMWARE, HEATER
+from tests.model_files.files import FIRMWARE, heater_files
 
 
 @pytest.fixture
 def firmware(tmp_path: Path) -> Path:
     """A folder with the model that ``init`` writes, and with firmwares of it."""
-    (tmp_path / "heater.py").write_text(HEATER, encoding="utf-8")
-    (tmp_path / "baseline.toml").write_text(BASELINE, encoding="utf-8")
-    (tmp_path / "firmware.py").write_text(FIRMWARE, encoding="utf-8")
-    return tmp_path
+    return heater_files(tmp_path)
 
 
 def running(folder: Path, name: str) -> Implementation:

@@ -57,6 +57,13 @@ to = "temperature_degC >= 59.5"
 """A change of the rover's charts, as a variant holds it: a limit between two values of its domain."""
 
 
+def heater_files(folder: Path, firmware: str = FIRMWARE) -> Path:
+    """The folder, with the heater's model, its baseline, and firmwares of it."""
+    for name, text in (("heater.py", HEATER), ("baseline.toml", BASELINE), ("firmware.py", firmware)):
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
 def but(old: str, new: str) -> str:
     """The heater with another text in one place."""
     assert HEATER.count(old) >= 1, old

@@ -146,17 +146,16 @@ def _variant(result: CompareResult, grouping: CauseGrouping, address: str, varia
     steps = f"{result.compared:,} steps from seed {result.seed}"
     rest = counted(len(every), "deviation", "deviations")
     evidence = f"compare, {address}, {steps}: the changes explain {len(explained & every)} of {rest}."
-    if every <= explained:  # else these runs were looked at in some parts alone
-        evidence += "".join(_of_deciding(result, grouping))
+    evidence += "".join(_of_deciding(result, grouping, every <= explained))
     return FoundVariant(name, [*before, *(change for part in found for change in part.changes)], evidence)
 
 
-def _of_deciding(result: CompareResult, grouping: CauseGrouping) -> Iterator[str]:
-    """What the runs showed that were tried for the causes."""
+def _of_deciding(result: CompareResult, grouping: CauseGrouping, in_all: bool) -> Iterator[str]:
+    """What the runs showed that were tried for the causes; ``in_all``: they were looked at in all parts."""
     for stage in result.stages:
         if stage.kind == DECIDING and grouping.unfit:
             yield f" More shows in runs that were tried for them, in {', '.join(grouping.unfit)}."
-        elif stage.kind == DECIDING and not stage.because:
+        elif stage.kind == DECIDING and in_all and not stage.because:
             yield f" Nothing else shows in {counted(stage.tried, 'run', 'runs')} tried for them."
 
 
