@@ -13,6 +13,7 @@ exit code is 1 if something is found to differ.
 """
 
 import argparse
+import re
 import shutil
 import sys
 import tempfile
@@ -51,6 +52,11 @@ from rovercheck.spec_model.rover import systems
 
 LANES, TICKS = 64, 600
 """Random runs, and the ticks of each, in which a timer is looked for."""
+
+OF_KIND = {
+    "after": (".steps",), "duration": ("_duration", ".held"), "held": ("_held",), "rising": ("_was",),
+}  # fmt: skip
+"""How the names of hidden variables are written in what is read of a file, of each kind in a system."""
 
 
 class _Renamed(Specialiser):
@@ -142,9 +148,9 @@ class Beside:
                 v for v in self._read.variables
                 if self._fits(v, var) and _same(np.minimum(at[v.name], high), values, on)
             ]  # fmt: skip
-            inside = ".".join(path)
+            likely = Likely(var.name)
             size = len(var.domain)
-            alike.sort(key=lambda v: (inside not in v.name, v.name in taken, len(v.domain) != size))
+            alike.sort(key=lambda v: (*likely.order(v.name), v.name in taken, len(v.domain) != size))
             if not alike or values[~on].any():
                 self.unknown.append(var.name)
                 continue
@@ -195,6 +201,21 @@ class Beside:
             self._read, name=f"{self._system.name} beside its file", variables=tuple(own),
             temps=(*self._read.temps, *more), step=tuple(step), checks=(), source=None,
         )  # fmt: skip
+
+
+class Likely:
+    """Which variable of a file may be a hidden one of a system: runs may not tell, where a state is rare."""
+
+    def __init__(self, name: str) -> None:
+        chart, *path, last = name.split(".")
+        self._inside = ".".join(path)
+        self._kinds = OF_KIND[last.rstrip("0123456789")]
+        self._of_chart = re.compile(rf"\b{re.escape(chart)}(({'|'.join(self._kinds)})\d|\.)")
+
+    def order(self, name: str) -> tuple[bool, ...]:
+        """False where a name says that it may be the one, what tells most first."""
+        of_kind = any(kind in name for kind in self._kinds)
+        return not of_kind, not self._of_chart.search(name), self._inside not in name
 
 
 def _same(one: Column, other: Column, where: Column) -> bool:
