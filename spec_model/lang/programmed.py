@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from rovercheck.spec_model.lang.action import Action, Assign, If, reads, writes
-from rovercheck.spec_model.lang.chart import Chart, Path, State
+from rovercheck.spec_model.lang.chart import Block, Chart, Path, State
 from rovercheck.spec_model.lang.domain import Domain, Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
@@ -163,6 +163,33 @@ class ProgrammedChart(Chart):
     def active_path(self, path: Path) -> Expr:
         """The condition that the state at ``path`` is active; for the chart itself, that it was entered."""
         return super().active_path(path) if path else self.entered == "yes"
+
+
+class ProgrammedBlock(Block):
+    """A function block that tells, too, which integer did not fit its type.
+
+    ``marked`` are its statements with the markers of ``overflows``, as in a ``StepProgram``.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        marked: Program,
+        overflows: Mapping[str, str],
+        *,
+        text: str = "",
+        temporaries: Sequence[Var] = (),
+        place: Place | None = None,
+    ) -> None:
+        do = without(marked, overflows.keys())
+        super().__init__(name, do, text=text, temporaries=temporaries, place=place)
+        self.marked, self.overflows = marked, overflows
+
+    def with_marked(self, marked: Program) -> "ProgrammedBlock":
+        """The block with other statements, as those that also note what it does."""
+        return ProgrammedBlock(
+            self.name, marked, self.overflows, text=self.text, temporaries=self.temporaries, place=self.place
+        )
 
 
 def without(statements: Program, names: Collection[str]) -> Program:

@@ -12,6 +12,7 @@ from rovercheck.checker.commands.lint.document import LintRow
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from tests.schemas import published
+from tests.simulink.by_hand.diagrams import Diagram
 from tests.simulink.known.packages import ChartText
 
 COUNTER = """from rovercheck import Chart, State, assign, flag, integer, to, var
@@ -211,4 +212,73 @@ def test_integers_that_are_more_than_their_types_hold_are_told(
         "`y + u` wraps around the ends of uint8 in C/A": "happens",
         "`u * 3` wraps around the ends of uint8 in C/A": "happens",
     }  # fmt: skip
+    assert code == Exit.AS_EXPECTED
+
+
+def test_integers_of_blocks_that_are_more_than_their_types_hold_are_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of MATLAB functions and of Sum, Gain, Abs and conversion blocks nothing was told."""
+    d = Diagram()
+    three = d.constant("int8(3)")
+    blocks = [
+        d.add("Sum", d.u, three),
+        d.add("Gain", d.u, Gain="3", SaturateOnIntegerOverflow="on"),
+        d.add("Abs", d.u),
+        d.add("DataTypeConversion", d.u, OutDataTypeStr="uint8"),
+        d.add("Product", d.u, three, Inputs="*/"),
+        d.add("MinMax", d.u, three, Inputs="2"),
+    ]
+    script = (
+        "function y = f(x)\ny = x * 2;\nif x < 100\n y = x + 20;\nend\nif uint8(x) > 7\n y = -x;\nend\nend\n"
+    )
+    function, made = d.root.chart("F", "MATLAB Function", script)
+    made.data("x", "input", "int8")
+    made.data("y", "output", "int8")
+    d.root.line(d.u, function)
+    path = d.given(*blocks, function).save(tmp_path / "one.slx")
+    code, rows = rows_of(path, capsys)
+    over = {what: row["found"] for what, row in rows.items() if row["kind"] == "overflow"}
+    assert over == {
+        "Sum 2 wraps around the ends of int8": "happens",
+        "Gain 3 stops at an end of int8": "happens",
+        "Abs 4 wraps around the ends of int8": "happens",
+        "DataTypeConversion 5 wraps around the ends of uint8": "happens",
+        "`x * 2` stops at an end of int8 in F": "happens",
+        "`x + 20` stops at an end of int8 in F": "never",
+        "`uint8(x)` stops at an end of uint8 in F": "happens",
+        "`-x` stops at an end of int8 in F": "never",
+    }
+    assert code == Exit.AS_EXPECTED
+
+
+ASSIGNED = ChartText(
+    "one",
+    """
+    in w int16
+    out y int8
+    out z uint8
+    -> A
+    state A: en: y = w;
+    A -> A: [w > 200]{z = w; z += 100; y = abs(y);}
+    A -> A: [w < 5]{z = z ^ 2 + 1;}
+    """,
+    "C",
+)
+
+
+def test_an_integer_that_is_assigned_to_a_smaller_type_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In C nothing shows where bits are lost; a power in such a sum was an internal error."""
+    code, rows = rows_of(ASSIGNED.save(tmp_path, "R2024a"), capsys)
+    over = {what: row["found"] for what, row in rows.items() if row["kind"] == "overflow"}
+    assert over == {
+        "`y = w` wraps around the ends of int8 in C/A": "happens",
+        "`z = w` wraps around the ends of uint8 in C/A": "happens",
+        "`z + 100` wraps around the ends of uint8 in C/A": "happens",
+        "`abs(y)` wraps around the ends of int8 in C/A": "happens",
+        "`z^2` wraps around the ends of uint8 in C/A": "happens",
+        "`z^2 + 1` wraps around the ends of uint8 in C/A": "never",
+    }
     assert code == Exit.AS_EXPECTED

@@ -9,6 +9,7 @@ from rovercheck.checker.drawn.charts.substitution import actions_after
 from rovercheck.checker.drawn.charts.texts import ChartTexts, UnnamedTexts
 from rovercheck.checker.drawn.charts.tidy import tidied, tidied_actions
 from rovercheck.checker.drawn.free import free_outputs
+from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.diagram import lowered_model
 from rovercheck.checker.drawn.lower.kinds import sizes
 from rovercheck.checker.drawn.lower.lowered import LoweredModel
@@ -26,10 +27,11 @@ from rovercheck.checker.drawn.lower.system import SystemWriter
 from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.parsed import ParsedChart, output_events
+from rovercheck.checker.drawn.records import DrawnBlock
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.domain import Domain
-from rovercheck.spec_model.lang.expr import Const, Named, Var
+from rovercheck.spec_model.lang.expr import Const, Expr, Named, Var
 
 
 @dataclass
@@ -113,6 +115,11 @@ class LanguageSystemWriter(SystemWriter):
 
     def _generated(self, node: BlockNode) -> list[Component]:
         raise NotLowered("it generates function calls: have what it calls executed in each step")
+
+    def _outside(
+        self, block: DrawnBlock, rules: IntegerRules, conditions: Mapping[str, Expr]
+    ) -> list[Component]:
+        return []
 
     @staticmethod
     def _plain(one: Component) -> Component:

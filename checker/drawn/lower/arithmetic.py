@@ -81,7 +81,7 @@ def scalar_of(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: Int
         return truth(folded(all_of(as_condition(left), as_condition(right))))
     if is_member(left.kind) or is_member(right.kind):
         raise NotLowered(f"{sign} computes with a member of an enumeration: convert it, as in int32(x)")
-    kind = _kind_in_c(left, right) if rules.c else _kind(sign, left, right)
+    kind = kind_of_both(sign, left, right, rules)
     one, other = as_number(left), as_number(right)
     if sign in BIT_SIGNS:
         return SymbolicScalar(kind, bitwise(sign, one, other, kind))
@@ -99,7 +99,7 @@ def scalar_of(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: Int
     else:
         raise NotLowered(f"the operator {sign} is not known here")
     if kind in INTEGERS:
-        return SymbolicScalar(kind, in_range(_whole(exact, rules), kind, rules.saturates))
+        return SymbolicScalar(kind, in_range(_whole(exact, rules), kind, rules))
     return SymbolicScalar(kind, toward_zero(exact) if kind == UNTYPED else exact)
 
 
@@ -131,6 +131,11 @@ def _decided(sign: str, one: Expr, other: Expr) -> bool | None:
     if sign in (">", "<=") and (low > most or high <= least):
         return (low > most) == (sign == ">")
     return None
+
+
+def kind_of_both(sign: str, left: SymbolicScalar, right: SymbolicScalar, rules: IntegerRules) -> str:
+    """The type in which two scalars are computed with.  Raises ``NotLowered``."""
+    return _kind_in_c(left, right) if rules.c else _kind(sign, left, right)
 
 
 def _kind(sign: str, left: SymbolicScalar, right: SymbolicScalar) -> str:
@@ -210,9 +215,9 @@ def _one(sign: str, value: SymbolicScalar, rules: IntegerRules) -> SymbolicScala
         plain = as_number(value)
         if sign == "-":
             plain = negated(plain)
-            plain = in_range(plain, kind, rules.saturates) if kind in INTEGERS else plain
+            plain = in_range(plain, kind, rules) if kind in INTEGERS else plain
         return SymbolicScalar(kind, plain)
     raise NotLowered(f"{sign} has no meaning before a value of the type {value.kind}")
 
 
-__all__ = ["DIVISIONS", "binary", "scalar_of", "unary", "zeros_of"]
+__all__ = ["DIVISIONS", "binary", "kind_of_both", "scalar_of", "unary", "zeros_of"]

@@ -4,7 +4,7 @@ import operator
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
-from rovercheck.checker.drawn.lower.conversions import in_range
+from rovercheck.checker.drawn.lower.conversions import WRAPS, in_range
 from rovercheck.checker.drawn.lower.rounding import by_cases, sum_of
 from rovercheck.checker.drawn.lower.symbols import (
     INTEGERS,
@@ -41,10 +41,10 @@ def bitwise(sign: str, one: Expr, other: Expr, kind: str) -> Expr:
     if isinstance(one, Const) and isinstance(other, Const) and kind == UNTYPED:
         return const(WHOLE_SIGNS[sign](one.value, other.value))
     if kind in INTEGERS:  # as a literal, or a shorter type of C, may be negative beside an unsigned one
-        one, other = (in_range(side, kind, saturates=False) for side in (one, other))
+        one, other = (in_range(side, kind, WRAPS) for side in (one, other))
     low, high = INTEGERS[kind] if kind in INTEGERS else (0, 2**53 - 1)
     total = _joined_bits(one, other, low, high, BIT_SIGNS[sign])
-    return in_range(total, kind, saturates=False) if kind in INTEGERS else total
+    return in_range(total, kind, WRAPS) if kind in INTEGERS else total
 
 
 def _joined_bits(one: Expr, other: Expr, low: int, high: int, join: Callable[[Expr, Expr], Expr]) -> Expr:
@@ -82,7 +82,7 @@ def shifted(expr: Expr, by: Expr, kind: str) -> Expr:
         if places < 0:
             return folded(Apply(Op.DIV, (expr, const(2 ** int(-places))), Num()))
         up = folded(expr * 2 ** int(places))
-        return in_range(up, kind, saturates=False) if kind in INTEGERS else up
+        return in_range(up, kind, WRAPS) if kind in INTEGERS else up
 
     return by_cases(by, moved)
 

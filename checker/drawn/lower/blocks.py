@@ -1,13 +1,14 @@
 """What the blocks of a diagram compute from their inputs in a step, as formulas."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial, reduce
 
-from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary, zeros_of
+from rovercheck.checker.drawn.lower.arithmetic import binary, kind_of_both, unary, zeros_of
 from rovercheck.checker.drawn.lower.builtins import greatest, least
 from rovercheck.checker.drawn.lower.conversions import (
+    WRAPS,
     IntegerRules,
     as_condition,
     as_number,
@@ -36,6 +37,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     filled,
     flat,
     folded,
+    least_and_greatest,
     leaves,
     matrix,
     number,
@@ -62,6 +64,8 @@ class BlockTypes:
     value_of: Callable[[str], Symbolic]
     zeros: list[Expr] = field(default_factory=list)
     """The conditions under which blocks divide by 0 that were not taken yet."""
+    outside: list[tuple[str, Expr]] = field(default_factory=list)
+    """The types that numbers did not fit, each with the condition of it, that were not taken yet."""
 
     def take_zeros(self) -> list[Expr]:
         """The conditions under which the block that was computed last divides by 0."""
@@ -69,10 +73,17 @@ class BlockTypes:
         self.zeros.clear()
         return found
 
+    def take_outside(self) -> dict[str, Expr]:
+        """The types that numbers of the block that was computed last do not fit, and when."""
+        found = dict.fromkeys(kind for kind, _ in self.outside)
+        made = {kind: folded(any_of(*(c for of, c in self.outside if of == kind))) for kind in found}
+        self.outside.clear()
+        return made
+
     def rules(self, block: DrawnBlock) -> IntegerRules:
         """Whether the integers of a block stop at their ends; they wrap unless it says so."""
         saturates = block.parameters.get("SaturateOnIntegerOverflow") == "on"
-        return IntegerRules(False, saturates, zero_noted=True)
+        return IntegerRules(False, saturates, True, lambda *left: self.outside.append(left))
 
     def typed(self, block: DrawnBlock, value: Symbolic) -> Symbolic:
         """A value in the type that a block says, if it says one."""
@@ -86,7 +97,7 @@ class BlockTypes:
             return each_converted(value, kind, self.rules(block), self.kinds)
         round_ = rounding_of(block)
         made = (
-            SymbolicScalar(kind, in_range(round_(as_number(one)), kind, self.rules(block).saturates))
+            SymbolicScalar(kind, in_range(round_(as_number(one)), kind, self.rules(block)))
             for one in flat(value)
         )
         return matrix(list(made), *size_of(value))
@@ -101,7 +112,6 @@ def rounding_of(block: DrawnBlock) -> Callable[[Expr], Expr]:
 
 
 BlockFormula = Callable[[DrawnBlock, Inputs, BlockTypes], list[Symbolic]]
-WRAPS = IntegerRules(False, False)
 
 
 def _constant(block: DrawnBlock, _: Inputs, types: BlockTypes) -> list[Symbolic]:
@@ -213,8 +223,9 @@ def _quotient(block: DrawnBlock, one: Symbolic, other: Symbolic, types: BlockTyp
 
     Raises ``NotLowered`` for a constant divisor of 0.
     """
-    types.zeros.extend(zeros_of("./", one, other, types.rules(block)))
-    found, rules = binary("./", one, other, types.rules(block)), types.rules(block)
+    rules = types.rules(block)
+    types.zeros.extend(zeros_of("./", one, other, rules))
+    found = binary("./", one, other, replace(rules, outside=None))
     if found.kind not in INTEGERS:
         return found
     round_, (low, high) = rounding_of(block), INTEGERS[found.kind]
@@ -222,13 +233,11 @@ def _quotient(block: DrawnBlock, one: Symbolic, other: Symbolic, types: BlockTyp
 
     def divided(value: Expr, divisor: Fraction) -> Expr:
         if divisor:
-            return in_range(round_(folded(value / divisor)), found.kind, rules.saturates)
+            return round_(folded(value / divisor))
         return chosen(folded(value > 0), const(high), chosen(folded(value < 0), const(low), const(0)))
 
-    made = [
-        SymbolicScalar(found.kind, by_cases(as_number(b), partial(divided, as_number(a)))) for a, b in places
-    ]
-    return matrix(made, *size)
+    exact = [by_cases(as_number(b), partial(divided, as_number(a))) for a, b in places]
+    return matrix([SymbolicScalar(found.kind, in_range(e, found.kind, rules)) for e in exact], *size)
 
 
 def _gain(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
@@ -340,7 +349,7 @@ def _extreme(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbo
     inputs = flat(inputs[0]) if len(inputs) == 1 else _operands(block, inputs, types)
 
     def better(one: SymbolicScalar, other: SymbolicScalar) -> SymbolicScalar:
-        kind = scalar_of("+", one, other, WRAPS).kind
+        kind = kind_of_both("+", one, other, WRAPS)
         return SymbolicScalar(kind, join(as_number(one), as_number(other)))
 
     places, size = _in_places(inputs)
@@ -360,6 +369,9 @@ def _saturated(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Sym
 def _magnitude(block: DrawnBlock, inputs: Inputs, types: BlockTypes) -> list[Symbolic]:
     rules, made = types.rules(block), []
     for one in flat(inputs[0]):
+        if least_and_greatest(as_number(one))[0] >= 0:
+            made.append(one)
+            continue
         below = single_of(unary("-", one, rules))
         made.append(SymbolicScalar(one.kind, chosen(folded(as_number(one) < 0), below.expr, one.expr)))
     return [matrix(made, *size_of(inputs[0]))]

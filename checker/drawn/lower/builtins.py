@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import reduce
 from math import isqrt
 
-from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of
+from rovercheck.checker.drawn.lower.arithmetic import binary, kind_of_both, scalar_of
 from rovercheck.checker.drawn.lower.bits import bit_of, complement, shifted
 from rovercheck.checker.drawn.lower.conversions import (
     IntegerRules,
@@ -62,7 +62,7 @@ def _each(change: Callable[[Expr], Expr]) -> Builtin:
     def one_(one: SymbolicScalar, rules: IntegerRules) -> SymbolicScalar:
         kind = "double" if one.kind == LOGICAL else one.kind
         made = change(as_number(one))
-        return SymbolicScalar(kind, in_range(made, kind, rules.saturates) if kind in INTEGERS else made)
+        return SymbolicScalar(kind, in_range(made, kind, rules) if kind in INTEGERS else made)
 
     return apply
 
@@ -99,9 +99,9 @@ def _two(join: Callable[[Expr, Expr], Expr]) -> Builtin:
         return matrix((one_(*pair, rules) for pair in zip(lefts, rights, strict=True)), rows, columns)
 
     def one_(left: SymbolicScalar, right: SymbolicScalar, rules: IntegerRules) -> SymbolicScalar:
-        kind = scalar_of("+", left, right, rules).kind
+        kind = kind_of_both("+", left, right, rules)
         made = join(as_number(left), as_number(right))
-        return SymbolicScalar(kind, in_range(made, kind, rules.saturates) if kind in INTEGERS else made)
+        return SymbolicScalar(kind, in_range(made, kind, rules) if kind in INTEGERS else made)
 
     return apply
 

@@ -22,7 +22,7 @@ from rovercheck.spec_model.lang.action import Assign, If, each_action
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.fired_transition import FiredTransition
-from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
+from rovercheck.spec_model.lang.programmed import ProgrammedBlock, ProgrammedChart, StepProgram
 from rovercheck.spec_model.lang.system import Statement
 
 
@@ -44,6 +44,10 @@ class ExecutedParts:
             match one:
                 case Enabled(by=by, components=inside):
                     found.append(If(by, tuple(self.statements(inside))))
+                case ProgrammedBlock(marked=marked, temporaries=temporaries):
+                    found += marked
+                    self.temporaries |= {var.name: var for var in temporaries}
+                    self.overflows |= one.overflows
                 case Block(do=do, temporaries=temporaries):
                     found += (action for action in do if isinstance(action, Assign | If))
                     self.temporaries |= {var.name: var for var in temporaries}
@@ -133,7 +137,8 @@ class CalledBlockWriter(ChartBlockWriter):
         statements, _ = joined(*[written[call] for call in calls] * times)
         temporaries = tuple(parts.temporaries.values())
         if not parts.charts:
-            return [Block(self._named(node.block), statements, temporaries=temporaries)]
+            name = self._named(node.block)
+            return [ProgrammedBlock(name, tuple(statements), parts.overflows, temporaries=temporaries)]
         *others, last = parts.charts  # the last stands for all: only charts may enter states
         places = tuple(place for one in others for place in (one.entered, *one.locations))
         program = StepProgram(
@@ -209,6 +214,7 @@ class CalledBlockWriter(ChartBlockWriter):
 
             found = [writer.alone(run)] * len(calls)
             parts.temporaries |= writer.temporaries
+            parts.overflows |= view.overflows
         else:
             others = self._call_all(node, chart, made)
             found = made.woken(names, feed)

@@ -25,9 +25,9 @@ from rovercheck.checker.drawn.lower.view import ChartView
 from rovercheck.checker.drawn.lower.wired_blocks import BlockNode
 from rovercheck.checker.drawn.parsed import ParsedChart, output_events
 from rovercheck.checker.drawn.records import DrawnData
-from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.chart import Component, Enabled
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of
-from rovercheck.spec_model.lang.programmed import ProgrammedChart, StepProgram
+from rovercheck.spec_model.lang.programmed import ProgrammedBlock, ProgrammedChart, StepProgram
 from rovercheck.spec_model.lang.system import Program
 
 
@@ -71,8 +71,8 @@ class ChartBlockWriter(TriggerWriter):
         events = self._events(node, made.chart)
         for _, condition in [("", TRUE)] if events is None else events:
             writer.choose(condition, made.run_block)
-        component = Block(
-            writer.name, writer.written(), text=f"The {drawn.kind} {drawn.path}.",
+        component = ProgrammedBlock(
+            writer.name, writer.written(), dict(made.view.overflows), text=f"The {drawn.kind} {drawn.path}.",
             temporaries=tuple(writer.temporaries.values()),
         )  # fmt: skip
         self._tell(made)

@@ -43,7 +43,7 @@ class ChartDataWriter(StatementWriter):
         named: Mapping[str, str], data_names: Callable[[DrawnData, StateNode], str],
     ) -> None:  # fmt: skip
         super().__init__(table, writer)
-        self.chart, self.view = chart, view
+        self.chart, self.view, self.language = chart, view, chart.language
         self.rules = IntegerRules(chart.language.name != "MATLAB", chart.drawn.saturates)
         self._values_named, self._name_of = named, data_names
         self.given: dict[str, tuple[SymbolicScalar, SymbolicScalar]] = {}

@@ -66,9 +66,8 @@ class WordWriter(ActiveStateWriter):
         return None if found is None else found[1]
 
     def note_overflow(self, what: str, condition: Expr) -> None:
-        """Note it in the view; a function that is a block has none."""
-        if not self.chart.drawn.is_function:
-            self.writer.mark(self.view.overflow_marker(what), condition)
+        """Note it in the view."""
+        self.writer.mark(self.view.overflow_marker(what), condition)
 
     def word(self, expression: Expression, scope: TextScope) -> Symbolic | None:
         """Times, changes, and whether a state is active."""

@@ -1,6 +1,7 @@
 """Formulas of one type as formulas of another: truth values, members and numbers, in their ranges."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from rovercheck.checker.drawn.lower.kinds import KindTable, is_member
 from rovercheck.checker.drawn.lower.rounding import MOST_CASES, nearest_of, sum_of, toward_zero
@@ -20,7 +21,7 @@ from rovercheck.checker.drawn.lower.symbols import (
     truth,
 )
 from rovercheck.spec_model.lang.domain import Bool, Num
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, all_of, const
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, all_of, any_of, const
 from rovercheck.spec_model.lang.operators import Op
 
 
@@ -28,12 +29,22 @@ from rovercheck.spec_model.lang.operators import Op
 class IntegerRules:
     """Whether numbers are those of C, and whether integers stop at their ends; else they wrap.
 
-    ``zero_noted``: where something is divided by 0 the step has no meaning, which is noted.
+    ``zero_noted``: where something is divided by 0 the step has no meaning, which is noted.  ``outside``
+    takes each type that a number does not fit, with the condition of it, where that is told.
     """
 
     c: bool = False
     saturates: bool = True
     zero_noted: bool = False
+    outside: Callable[[str, Expr], None] | None = field(default=None, compare=False)
+
+    def left(self, kind: str) -> str:
+        """What happens to a number that an integer type does not hold."""
+        return f"{'stops at an end of' if self.saturates else 'wraps around the ends of'} {kind}"
+
+
+WRAPS = IntegerRules(False, False)
+"""Integers that wrap, of which nothing is told."""
 
 
 def as_number(value: SymbolicScalar) -> Expr:
@@ -65,13 +76,16 @@ def condition_of(value: Symbolic) -> Expr:
     return folded(all_of(*every)) if every else folded(~all_of())
 
 
-def in_range(expr: Expr, kind: str, saturates: bool) -> Expr:
+def in_range(expr: Expr, kind: str, rules: IntegerRules) -> Expr:
     """A whole number in an integer type."""
     low, high = INTEGERS[kind]
     least, greatest = least_and_greatest(expr)
     if low <= least and greatest <= high:
         return expr
-    if saturates:
+    if rules.outside is not None:
+        beyond = [expr > high] * (greatest > high) + [expr < low] * (least < low)
+        rules.outside(kind, folded(any_of(*map(folded, beyond))))
+    if rules.saturates:
         if greatest > high:
             expr = folded(Apply(Op.MIN, (expr, const(high)), Num()))
         return folded(Apply(Op.MAX, (expr, const(low)), Num())) if least < low else expr
@@ -91,7 +105,7 @@ def converted(value: SymbolicScalar, kind: str, rules: IntegerRules, kinds: Kind
         return SymbolicScalar(kind, expr)
     if kind in INTEGERS:
         whole = toward_zero(expr) if rules.c else nearest_of(expr)
-        return SymbolicScalar(kind, in_range(whole, kind, rules.saturates))
+        return SymbolicScalar(kind, in_range(whole, kind, rules))
     if is_member(kind):
         return _member(expr, kind, kinds)
     if kind == UNTYPED:
@@ -130,6 +144,7 @@ def each_converted(value: Symbolic, kind: str, rules: IntegerRules, kinds: KindT
 
 
 __all__ = [
+    "WRAPS",
     "IntegerRules",
     "as_condition",
     "as_number",

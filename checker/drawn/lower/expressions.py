@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from rovercheck.checker.drawn.free import arguments_of, free_name
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
@@ -108,7 +109,7 @@ class ExpressionWriter(OperatorWriter):
                 every, at = self._both(whole, index, scope)
                 return self._element(every, as_number(single_of(at)), self.first_index(whole, scope))
             case UnaryOperation(sign, operand):
-                return unary(sign, self.value(operand, scope), scope.rules)
+                return unary(sign, self.value(operand, scope), self.noting(scope, expression))
             case BinaryOperation("&&" | "||" as sign, left, right):
                 return truth(self._short(sign, left, right, scope))
             case BinaryOperation(_, left, right):
@@ -310,20 +311,22 @@ class ExpressionWriter(OperatorWriter):
             self.writer.fault(f"error(...) may be called: {' '.join(texts)}".rstrip(": "))
             return []
         if texts or name in TYPED:
-            return [self._typed(name, values, texts, scope)]
+            whole = Applied(Name(name), tuple(given))
+            return [self._typed(name, values, texts, replace(scope, rules=self.noting(scope, whole)))]
+        rules = self.noting(scope, Applied(Name(name), tuple(given)))
         try:
             if name == "isempty" and values and isinstance(values[0], SymbolicStructure):
                 return [truth(const(False))]
             if name in REDUCTIONS and values and not isinstance(values[0], SymbolicStructure):
-                lines = reduced(name, values, scope.rules, self.table.kinds)
+                lines = reduced(name, values, rules, self.table.kinds)
                 if lines is not None:
                     return [lines]
             if name in BUILTINS:
-                made = BUILTINS[name](values, scope.rules, self.table.kinds)
+                made = BUILTINS[name](values, rules, self.table.kinds)
                 extreme = name in EXTREMES and len(values) == 1
                 return [made, place_of_extreme(name, values[0], scope.rules)] if extreme else [made]
             if name in FURTHER:
-                return [FURTHER[name](values, scope.rules, self.table.kinds)]
+                return [FURTHER[name](values, rules, self.table.kinds)]
         except (ValueError, IndexError) as error:
             raise NotLowered(f"{name} takes other arguments") from error
         if name in self.table.kinds.enumerations and len(values) == 1:

@@ -7,8 +7,8 @@ from rovercheck.checker.drawn.free import numbered
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.programmed import ProgrammedChart
-from rovercheck.spec_model.lang.system import Note
+from rovercheck.spec_model.lang.programmed import ProgrammedBlock, ProgrammedChart
+from rovercheck.spec_model.lang.system import Note, Program
 
 Counts = Mapping[str, int]
 
@@ -35,13 +35,18 @@ class FreeInputs:
             case Enabled():
                 inside = self.components(one.components)
                 return Enabled(one.by, *inside, name=one.name, place=one.place)
+            case ProgrammedBlock():
+                return one.with_marked(self._statements(one.marked))
             case Block():
                 do = self._all(one.do)
                 return Block(one.name, do, text=one.text, temporaries=one.temporaries, place=one.place)
             case ProgrammedChart():
-                made = tuple(a for a in self._all(one.program.statements) if isinstance(a, Assign | If))
+                made = self._statements(one.program.statements)
                 return one.with_program(replace(one.program, statements=made))
         return one
+
+    def _statements(self, statements: Program) -> Program:
+        return tuple(a for a in self._all(statements) if isinstance(a, Assign | If))
 
     def _all(self, actions: Sequence[Action]) -> tuple[Action, ...]:
         made, self._counts = self._numbered(actions, self._counts)

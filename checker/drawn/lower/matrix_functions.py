@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import reduce
 from math import pi
 
-from rovercheck.checker.drawn.lower.arithmetic import binary, scalar_of, unary
+from rovercheck.checker.drawn.lower.arithmetic import binary, kind_of_both, scalar_of, unary
 from rovercheck.checker.drawn.lower.builtins import BUILTINS, Arguments, Builtin, greatest, least
 from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_condition, as_number, in_range
 from rovercheck.checker.drawn.lower.kinds import KindTable
@@ -55,18 +55,18 @@ def _either(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symb
 def _quotient(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:
     """``idivide``, which cuts towards 0."""
     left, right = map(single_of, arguments)
-    kind = scalar_of("+", left, right, rules).kind
+    kind = kind_of_both("+", left, right, rules)
     if kind not in INTEGERS:
         raise NotLowered("idivide divides integers: convert one of them, as in int32(x)")
     one = as_number(left)
 
     def by(divisor: Fraction) -> Expr:
         if divisor:
-            return in_range(toward_zero(folded(one / divisor)), kind, rules.saturates)
+            return toward_zero(folded(one / divisor))
         low, high = INTEGERS[kind]
         return chosen(folded(one > 0), const(high), chosen(folded(one < 0), const(low), const(0)))
 
-    return SymbolicScalar(kind, by_cases(as_number(right), by))
+    return SymbolicScalar(kind, in_range(by_cases(as_number(right), by), kind, rules))
 
 
 def _real_power(arguments: Arguments, rules: IntegerRules, kinds: KindTable) -> Symbolic:

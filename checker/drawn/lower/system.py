@@ -1,6 +1,6 @@
 """One system of blocks, in the order of their execution, with the subsystems in it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from rovercheck.checker.drawn.calls import GENERATOR, is_called
@@ -30,8 +30,8 @@ from rovercheck.checker.drawn.wiring import CONTROL, DELAYS, number_of
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled, parts
 from rovercheck.spec_model.lang.domain import boolean
-from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var, any_of, const
-from rovercheck.spec_model.lang.programmed import FAULT, ProgrammedChart, is_fault
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, Expr, Var, any_of, const
+from rovercheck.spec_model.lang.programmed import FAULT, ProgrammedBlock, ProgrammedChart, is_fault
 
 
 class SystemWriter(CalledBlockWriter):
@@ -86,7 +86,8 @@ class SystemWriter(CalledBlockWriter):
             try:
                 types = self.context.types
                 node.outputs = BLOCKS[block.kind](block, self._values(node), types)
-                return self._divided(block, types.take_zeros())
+                outside, divided = types.take_outside(), self._divided(block, types.take_zeros())
+                return [*divided, *self._outside(block, types.rules(block), outside)]
             except (IndexError, KeyError, ValueError) as error:  # as a Gain without an input
                 raise NotLowered("its inputs and parameters do not fit each other") from error
         else:
@@ -101,6 +102,24 @@ class SystemWriter(CalledBlockWriter):
         fault = Var(f"{name}.fault", FAULT, 0, f"{block.shown_path} {BY_ZERO}", hidden=True)
         noted = If(folded(any_of(*zeros)), (Assign(fault, const(1)),))
         return [Block(name, [noted], text=f"What {block.path} divides by.")]
+
+    def _outside(
+        self, block: DrawnBlock, rules: IntegerRules, conditions: Mapping[str, Expr]
+    ) -> list[Component]:
+        """Tell where integers that a block computes are more than their types hold."""
+        if not conditions:
+            return []
+        name = self._named(block)
+        told = {
+            f"{name}.overflow {n}": (f"{block.shown_path} {rules.left(kind)}", condition)
+            for n, (kind, condition) in enumerate(conditions.items(), 1)
+        }
+        rows = [
+            If(condition, (Assign(Var(marker, boolean, 0, hidden=True), TRUE),))
+            for marker, (_, condition) in told.items()
+        ]
+        texts = {marker: text for marker, (text, _) in told.items()}
+        return [ProgrammedBlock(name, tuple(rows), texts, text=f"What {block.path} computes.")]
 
     def _subsystem(self, node: BlockNode, system: DrawnSystem) -> list[Component]:
         block = node.block

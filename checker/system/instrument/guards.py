@@ -1,6 +1,6 @@
 """Guards that decide nothing: those that always hold where they are tested, and those whose order decides."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -10,7 +10,7 @@ from rovercheck.spec_model.lang.action import Action, Assign
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
 from rovercheck.spec_model.lang.domain import boolean
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var
-from rovercheck.spec_model.lang.programmed import ProgrammedChart
+from rovercheck.spec_model.lang.programmed import ProgrammedBlock, ProgrammedChart
 from rovercheck.spec_model.lang.system import System
 
 
@@ -60,13 +60,21 @@ def _component(component: Component, goals: list[GuardGoal]) -> Component:
             }
             for marker, text in program.rivals.items():
                 raised[marker] = _raised(_plain(goals, marker.rpartition(".")[0], "order", text).flag)
-            for marker, text in program.overflows.items():
-                raised[marker] = _raised(_plain(goals, marker.rpartition(".")[0], "overflow", text).flag)
+            raised |= _overflowing(program.overflows, goals)
             return component.with_program(replace(program, statements=raising(program.statements, raised)))
+        case ProgrammedBlock(overflows=overflows):
+            return component.with_marked(raising(component.marked, _overflowing(overflows, goals)))
         case Chart():
             return _GuardedChart(component, goals).watched()
         case _:
             return component
+
+
+def _overflowing(overflows: Mapping[str, str], goals: list[GuardGoal]) -> dict[str, tuple[Action, ...]]:
+    return {
+        marker: _raised(_plain(goals, marker.rpartition(".")[0], "overflow", text).flag)
+        for marker, text in overflows.items()
+    }
 
 
 def _condition(goals: list[GuardGoal], part: str, text: str) -> GuardGoal:
