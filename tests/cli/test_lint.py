@@ -2,14 +2,18 @@
 
 import json
 import re
+from collections.abc import Iterable, Iterator
+from itertools import islice
 from pathlib import Path
 
 import pytest
 from jsonschema import Draft202012Validator
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.lint import run as lint_run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.simulink.writer.packages import WrittenModel
+from rovercheck.checker.verify.result import Result
 from tests.drawn.test_function_calls import Calling, called_chart
 from tests.schemas import published
 from tests.simulink.known.packages import ChartText
@@ -153,7 +157,12 @@ def test_the_document_is_as_published(model: str, capsys: pytest.CaptureFixture[
     assert found == {(kind, "never") for kind in ("state", "transition", "condition", "way out")} | {
         ("order", "happens")
     }
-    assert told["systems"] == [{"system": "Lamp", "states": 5, "transitions": 7, "asked": True}]
+    assert told["systems"] == [
+        {
+            "system": "Lamp", "states": 5, "transitions": 7, "asked": True, "questions": 22, "answered": 22,
+        },
+    ]  # fmt: skip
+    assert not told["interrupted"]
 
 
 def test_charts_of_simulink_are_asked_by_their_paths(capsys: pytest.CaptureFixture[str]) -> None:
@@ -239,3 +248,29 @@ def test_overlapping_conditions_of_imported_charts_are_told_with_a_run(
     assert (one["found"], one["chart"]) == ("happens", "C")
     assert re.fullmatch(r"tick 2: u = [4-9]\d*, stop = true", one["run"][-1])
     assert one["run"][-1] in said
+
+
+def stopping(found: Iterable[Result], after: int) -> Iterator[Result]:
+    yield from islice(found, after)
+    raise KeyboardInterrupt
+
+
+def test_what_was_found_before_an_interruption_is_told(
+    model: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After Ctrl-C nothing was told of what had been answered."""
+    whole = lint_run.results
+    monkeypatch.setattr(lint_run, "results", lambda *given: stopping(whole(*given), 10))
+    code = run(["lint", "--model", model, "--json"])
+    told = json.loads(capsys.readouterr().out)
+    Draft202012Validator(published("lint-1")).validate(told)
+    [summary] = told["systems"]
+    assert told["interrupted"] and summary["answered"] == 10 < summary["questions"]
+    assert all(row["evidence"] for row in told["findings"])
+    assert code == (Exit.FAILED if told["findings"] else Exit.INTERRUPTED)
+    run(["lint", "--model", model])
+    said = " ".join(capsys.readouterr().out.split())
+    assert f"interrupted: 10 of {summary['questions']} questions about them are answered." in said
+    monkeypatch.setattr(lint_run, "number_rows", lambda *given: stopping((), 0))
+    assert run(["lint", "--model", model]) == Exit.INTERRUPTED
+    assert "interrupted before they were asked about." in " ".join(capsys.readouterr().out.split())

@@ -44,6 +44,10 @@ class LintSummary(TypedDict):
     transitions: int
     asked: bool
     """Whether states and transitions were asked about, which is so unless some run has no meaning."""
+    questions: int
+    """How many there are, about states, transitions, conditions, orders and integers."""
+    answered: int
+    """How many have a run, a proof, or the reason why there is neither: all of them, unless interrupted."""
 
 
 class LintDocument(TypedDict):
@@ -54,11 +58,17 @@ class LintDocument(TypedDict):
     findings: Sequence[LintRow]
     """What never happens, what only the order decides, what was not decided, and all that is of numbers."""
     systems: Sequence[LintSummary]
+    interrupted: bool
 
 
-def document(rows: Sequence[LintRow], systems: Sequence[LintSummary], code: Exit) -> dict[str, Any]:
+def document(
+    rows: Sequence[LintRow], systems: Sequence[LintSummary], code: Exit, interrupted: bool
+) -> dict[str, Any]:
     """The findings as JSON; its fields are those of :class:`LintDocument`."""
-    return {"schema": "rovercheck/lint/1", "exit": code, "findings": list(rows), "systems": list(systems)}
+    return {
+        "schema": "rovercheck/lint/1", "exit": code, "findings": list(rows), "systems": list(systems),
+        "interrupted": interrupted,
+    }  # fmt: skip
 
 
 __all__ = ["NUMBERS", "LintDocument", "LintRow", "LintSummary", "RowKind", "document"]

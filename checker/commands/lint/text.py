@@ -10,7 +10,7 @@ MOST_TICKS = 4
 """Lines of a run that are shown, those of its end; --json has them all."""
 
 
-def told_lines(rows: Sequence[LintRow], summaries: Sequence[LintSummary]) -> Iterator[str]:
+def told_lines(rows: Sequence[LintRow], summaries: Sequence[LintSummary], interrupted: bool) -> Iterator[str]:
     """What people read: a line or more for each row, and one for each system."""
     for row in rows:
         mark, said = _sentence(row)
@@ -25,7 +25,11 @@ def told_lines(rows: Sequence[LintRow], summaries: Sequence[LintSummary]) -> Ite
         said = f"{counted(one['states'], 'state', 'states')}, {many}"
         rest = "all of them can happen" if not asked else f"{len(asked)} of them as above"
         rest = rest if one["asked"] else "not asked about as long as a run has no meaning"
-        fine = all(row["kind"] in NUMBERS and row["found"] == "never" for row in own)
+        if interrupted and one["questions"]:
+            rest = f"interrupted: {one['answered']} of {one['questions']} questions about them are answered"
+        elif interrupted:
+            rest = "interrupted before they were asked about"
+        fine = not interrupted and all(row["kind"] in NUMBERS and row["found"] == "never" for row in own)
         yield _wrapped(f"{'✓' if fine else '•'} {one['system']}: {said}, {rest}.")
 
 
