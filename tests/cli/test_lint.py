@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.lint import run as lint_run
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.simulink.writer.packages import WrittenModel
 from rovercheck.checker.verify.result import Result
 from tests.drawn.test_function_calls import Calling, called_chart
@@ -259,7 +260,7 @@ def test_what_was_found_before_an_interruption_is_told(
     model: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """After Ctrl-C nothing was told of what had been answered."""
-    whole = lint_run.results
+    whole = results
     monkeypatch.setattr(lint_run, "results", lambda *given: stopping(whole(*given), 10))
     code = run(["lint", "--model", model, "--json"])
     told = json.loads(capsys.readouterr().out)
