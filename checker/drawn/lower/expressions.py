@@ -109,7 +109,9 @@ class ExpressionWriter(OperatorWriter):
                 every, at = self._both(whole, index, scope)
                 return self._element(every, as_number(single_of(at)), self.first_index(whole, scope))
             case UnaryOperation(sign, operand):
-                return unary(sign, self.value(operand, scope), self.noting(scope, expression))
+                after = self.value(operand, scope)
+                with self.noting(expression, scope) as outside:
+                    return unary(sign, after, replace(scope.rules, outside=outside))
             case BinaryOperation("&&" | "||" as sign, left, right):
                 return truth(self._short(sign, left, right, scope))
             case BinaryOperation(_, left, right):
@@ -310,25 +312,13 @@ class ExpressionWriter(OperatorWriter):
         if name == "error":
             self.writer.fault(f"error(...) may be called: {' '.join(texts)}".rstrip(": "))
             return []
-        if texts or name in TYPED:
-            whole = Applied(Name(name), tuple(given))
-            return [self._typed(name, values, texts, replace(scope, rules=self.noting(scope, whole)))]
-        rules = self.noting(scope, Applied(Name(name), tuple(given)))
-        try:
-            if name == "isempty" and values and isinstance(values[0], SymbolicStructure):
-                return [truth(const(False))]
-            if name in REDUCTIONS and values and not isinstance(values[0], SymbolicStructure):
-                lines = reduced(name, values, rules, self.table.kinds)
-                if lines is not None:
-                    return [lines]
-            if name in BUILTINS:
-                made = BUILTINS[name](values, rules, self.table.kinds)
-                extreme = name in EXTREMES and len(values) == 1
-                return [made, place_of_extreme(name, values[0], scope.rules)] if extreme else [made]
-            if name in FURTHER:
-                return [FURTHER[name](values, rules, self.table.kinds)]
-        except (ValueError, IndexError) as error:
-            raise NotLowered(f"{name} takes other arguments") from error
+        with self.noting(Applied(Name(name), tuple(given)), scope) as outside:
+            noted = replace(scope, rules=replace(scope.rules, outside=outside))
+            if texts or name in TYPED:
+                return [self._typed(name, values, texts, noted)]
+            found = self._of_matlab(name, values, noted)
+        if found is not None:
+            return found
         if name in self.table.kinds.enumerations and len(values) == 1:
             kind = self.table.kinds.kind(f"Enum: {name}")
             return [each_converted(values[0], kind, scope.rules, self.table.kinds)]
@@ -336,6 +326,26 @@ class ExpressionWriter(OperatorWriter):
             f"{name} is no datum, event or function that is known here; a function of MATLAB may be named "
             f"under {FREE}"
         )
+
+    def _of_matlab(self, name: str, values: Sequence[Symbolic], scope: TextScope) -> list[Symbolic] | None:
+        """What a function of MATLAB gives; ``None`` for one that is not known."""
+        rules, kinds = scope.rules, self.table.kinds
+        try:
+            if name == "isempty" and values and isinstance(values[0], SymbolicStructure):
+                return [truth(const(False))]
+            if name in REDUCTIONS and values and not isinstance(values[0], SymbolicStructure):
+                lines = reduced(name, values, rules, kinds)
+                if lines is not None:
+                    return [lines]
+            if name in BUILTINS:
+                made = BUILTINS[name](values, rules, kinds)
+                extreme = name in EXTREMES and len(values) == 1
+                return [made, place_of_extreme(name, values[0], rules)] if extreme else [made]
+            if name in FURTHER:
+                return [FURTHER[name](values, rules, kinds)]
+        except (ValueError, IndexError) as error:
+            raise NotLowered(f"{name} takes other arguments") from error
+        return None
 
     def _structure(self, given: Sequence[Expression], scope: TextScope) -> Symbolic:
         """``struct('name', value, ...)``."""

@@ -1,6 +1,7 @@
 """Operators in the texts of a chart, and where a result has no meaning, or does not fit its type."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
 
@@ -15,7 +16,6 @@ from rovercheck.checker.drawn.grammar.syntax import (
 )
 from rovercheck.checker.drawn.grammar.text import text_of
 from rovercheck.checker.drawn.lower.arithmetic import DIVISIONS, binary, zeros_of
-from rovercheck.checker.drawn.lower.conversions import IntegerRules
 from rovercheck.checker.drawn.lower.elements import ElementWriter
 from rovercheck.checker.drawn.lower.names import TextScope
 from rovercheck.checker.drawn.lower.symbols import (
@@ -39,22 +39,37 @@ class OperatorWriter(ElementWriter):
 
     def operated(self, whole: BinaryOperation, one: Symbolic, other: Symbolic, scope: TextScope) -> Symbolic:
         """The value of an operation of two values.  Raises ``NotLowered``."""
-        sign, rules = whole.operator, self.noting(scope, whole)
+        sign, rules = whole.operator, scope.rules
         if zero := zeros_of(sign, one, other, rules):
             said = f"`{self._text(whole, scope)}` {BY_ZERO}"
             self.writer.choose(folded(any_of(*zero)), lambda: self.writer.fault(said))
             rules = replace(rules, zero_noted=True)
-        return binary(sign, one, other, rules)
+        with self.noting(whole, scope) as outside:
+            return binary(sign, one, other, replace(rules, outside=outside))
 
-    def noting(self, scope: TextScope, *texts: Expression) -> IntegerRules:
-        """The rules of a text, or of the two sides of an assignment, of which is told what fits no type."""
+    @contextmanager
+    def noting(self, whole: Expression, scope: TextScope) -> Iterator[Callable[[str, Expr], None]]:
+        """Note once where a value, or an element of it, does not fit its type while it is computed."""
+        found: dict[str, list[Expr]] = {}
+        yield lambda kind, condition: found.setdefault(kind, []).append(condition)
+        for kind, conditions in found.items():
+            self._note_outside(self._text(whole, scope), kind, folded(any_of(*conditions)), scope)
+
+    def assigning(self, scope: TextScope, *sides: Expression) -> TextScope:
+        """The scope of an assignment, in which is noted before it where a value does not fit its type."""
+        known = set[tuple[str, str]]()
 
         def outside(kind: str, condition: Expr) -> None:
-            shown = " = ".join(self._text(one, scope) for one in texts)
-            said = f"`{shown}` {scope.rules.left(kind)} in {scope.node.path}"
-            self.note_overflow(said, folded(all_of(self.only_if, condition)))
+            if (kind, str(condition)) not in known:  # as for each element that one may be written to
+                known.add((kind, str(condition)))
+                shown = " = ".join(self._text(one, scope) for one in sides)
+                self._note_outside(shown, kind, condition, scope)
 
-        return replace(scope.rules, outside=outside)
+        return replace(scope, rules=replace(scope.rules, outside=outside))
+
+    def _note_outside(self, shown: str, kind: str, condition: Expr, scope: TextScope) -> None:
+        said = f"`{shown}` {scope.rules.left(kind)} in {scope.node.path}"
+        self.note_overflow(said, folded(all_of(self.only_if, condition)))
 
     def _text(self, expression: Expression, scope: TextScope) -> str:
         return text_of(expression, self.language if scope.rules.c else ActionLanguage.MATLAB)

@@ -229,7 +229,7 @@ class StatementWriter(ExpressionWriter):
             if sign is not None:
                 value = compound(sign, targets[0], value)
                 new = self.operated(value, self.value(targets[0], scope), new, scope)
-            self._write(targets[0], new, replace(scope, rules=self.noting(scope, targets[0], value)))
+            self._write(targets[0], new, self.assigning(scope, targets[0], value))
             return
         given = self.several(value, scope)
         if isinstance(value, Applied) and value.function == Name("size"):
@@ -238,7 +238,7 @@ class StatementWriter(ExpressionWriter):
             raise NotLowered(f"{len(targets)} values are taken of a function that gives {len(given)}")
         for target, one in zip(targets, given, strict=False):
             if target is not None:
-                self._write(target, one, replace(scope, rules=self.noting(scope, target)))
+                self._write(target, one, self.assigning(scope, target))
 
     def _write(self, target: Expression, value: Symbolic, scope: TextScope) -> None:
         match target:
