@@ -57,13 +57,10 @@ class OperatorWriter(ElementWriter):
 
     def assigning(self, scope: TextScope, *sides: Expression) -> TextScope:
         """The scope of an assignment, in which is noted before it where a value does not fit its type."""
-        known = set[tuple[str, str]]()
 
         def outside(kind: str, condition: Expr) -> None:
-            if (kind, str(condition)) not in known:  # as for each element that one may be written to
-                known.add((kind, str(condition)))
-                shown = " = ".join(self._text(one, scope) for one in sides)
-                self._note_outside(shown, kind, condition, scope)
+            shown = " = ".join(self._text(one, scope) for one in sides)
+            self._note_outside(shown, kind, condition, scope)
 
         return replace(scope, rules=replace(scope.rules, outside=outside))
 

@@ -23,7 +23,7 @@ from rovercheck.checker.drawn.grammar.actions import (
 from rovercheck.checker.drawn.grammar.functions import ScriptFunction
 from rovercheck.checker.drawn.grammar.syntax import Applied, BinaryOperator, Expression, Indexed, Member, Name
 from rovercheck.checker.drawn.lower.arithmetic import binary
-from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, converted, each_converted
+from rovercheck.checker.drawn.lower.conversions import IntegerRules, as_number, each_converted
 from rovercheck.checker.drawn.lower.expressions import ExpressionWriter
 from rovercheck.checker.drawn.lower.kinds import is_structure
 from rovercheck.checker.drawn.lower.names import TextScope, datum_in, refuse_other_globals
@@ -260,10 +260,8 @@ class StatementWriter(ExpressionWriter):
                 whole, at = self.value(of, scope), as_number(single_of(self.value(index, scope)))
                 first = self.first_index(of, scope)
                 self.check_index(at, first, len(flat(whole)))
-                new = single_of(value)
-                every = [
-                    self._if_at(one, folded(at == first + n), new, scope) for n, one in enumerate(flat(whole))
-                ]
+                [new] = self._in_type_of(whole, single_of(value), scope)
+                every = [_if_at(one, folded(at == first + n), new) for n, one in enumerate(flat(whole))]
                 self._write(of, matrix(every, *size_of(whole)), scope)
             case _:
                 raise NotLowered("what is assigned to is no datum")
@@ -295,18 +293,17 @@ class StatementWriter(ExpressionWriter):
             raise NotLowered(f"sizes of {shown}: a datum keeps its size")
         return made
 
-    def _if_at(
-        self, old: SymbolicScalar, here: Expr, new: SymbolicScalar, scope: TextScope
-    ) -> SymbolicScalar:
-        made = converted(new, old.kind, scope.rules, self.table.kinds)
-        return SymbolicScalar(old.kind, chosen(here, made.expr, old.expr))
+    def _in_type_of(self, whole: Symbolic, value: Symbolic, scope: TextScope) -> Sequence[SymbolicScalar]:
+        """The elements of a value in the type of those of a matrix."""
+        kind = next((one.kind for one in flat(whole)), value.kind)
+        return flat(each_converted(value, kind, scope.rules, self.table.kinds))
 
     def _with(
         self, whole: Symbolic, indices: Sequence[Expression], value: Symbolic, scope: TextScope
     ) -> Symbolic:
         """A matrix with other values in some places."""
         rows, columns = size_of(whole)
-        found, given = list(flat(whole)), flat(value)
+        found, given = list(flat(whole)), self._in_type_of(whole, value, scope)
         if len(indices) == 1:
             places = self.index(indices[0], rows * columns, scope)
             own = [
@@ -331,7 +328,7 @@ class StatementWriter(ExpressionWriter):
                     here = folded(one == own[at])
                 else:
                     here = folded(folded(one == at // columns + 1) & folded(other == at % columns + 1))
-                found[at] = self._if_at(old, here, new, scope)
+                found[at] = _if_at(old, here, new)
         return matrix(found, rows, columns)
 
     def _set(self, name: str, value: Symbolic, scope: TextScope) -> None:
@@ -394,6 +391,10 @@ class StatementWriter(ExpressionWriter):
         self._recall(name, scope)
         self._all(self.persistent[key], value, scope)
         self.table.write(self.writer, single_of(self.persistent[f"{key}?"]), FALSE)
+
+
+def _if_at(old: SymbolicScalar, here: Expr, new: SymbolicScalar) -> SymbolicScalar:
+    return SymbolicScalar(old.kind, chosen(here, new.expr, old.expr))
 
 
 __all__ = ["StatementWriter"]
