@@ -59,6 +59,7 @@ class LintDocument(TypedDict):
     """What never happens, what only the order decides, what was not decided, and all that is of numbers."""
     systems: Sequence[LintSummary]
     interrupted: bool
+    """Whether questions were left when it was ended."""
 
 
 def document(
