@@ -38,7 +38,7 @@ def main(numbers: tuple[int, ...]) -> None:
             for rows in numbers:
                 for differ in (False, True):
                     file = Path(folder) / "long.csv"
-                    _write(file, board, rows, differ)
+                    write_log(file, board, rows, differ)
                     used = checked(file)
                     kind = "with differences" if differ else "clean"
                     print(
@@ -48,12 +48,14 @@ def main(numbers: tuple[int, ...]) -> None:
                     )
 
 
-def _write(file: Path, board: str, rows: int, differ: bool) -> None:
+def write_log(file: Path, board: str, rows: int, differ: bool) -> None:
+    """A recording of so many rows, in which an output differs now and then, or none does."""
     with file.open("w", encoding="utf-8", newline="") as out:
         writer: csv.DictWriter[str] | None = None
         for row in _rows(board, rows, differ):
             if writer is None:
-                writer = csv.DictWriter(out, list(row), lineterminator="\n")
+                every = dict.fromkeys([*row, *(one.name for one in boards()[board].outputs)])
+                writer = csv.DictWriter(out, list(every), lineterminator="\n")  # not each is in each step
                 writer.writeheader()
             writer.writerow({n: int(v) if isinstance(v, bool) else v for n, v in row.items()})
 
