@@ -59,7 +59,7 @@ OF_KIND = {
 """How the names of hidden variables are written in what is read of a file, of each kind in a system."""
 
 
-class _Renamed(Specialiser):
+class Renamed(Specialiser):
     """The step of a system with other variables, and with formulas in place of its inputs."""
 
     def __init__(self, by: Mapping[str, Expr]) -> None:
@@ -99,7 +99,7 @@ class Beside:
         self._as_drawn = {v.name: replace(v, name=f"{v.name} as drawn") for v in own}
         given = {v.name: again.inside[v.name] for v in self._drawn.inputs}
         given |= {v.name: again.given[v.name] for v in self._drawn.frozen}  # kept in the first step only
-        self._rename = _Renamed({**self._as_drawn, **given})
+        self._rename = Renamed({**self._as_drawn, **given})
         self.of: dict[str, Expr] = {}
         self.unknown: list[str] = []
         self.guessed: list[str] = []

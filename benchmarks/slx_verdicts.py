@@ -12,7 +12,7 @@ import argparse
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
@@ -95,13 +95,20 @@ class ReadAgain(Specialiser):
             for word, condition in (("yes", active()), ("no", ~active())):
                 yield (chart.entered.name, chart.entered.domain.raw(word)), condition
 
-    def _expr(self, expr: Expr) -> Expr:
+    def state(self, expr: Expr) -> Expr | None:
+        """For ``the place of a chart is a state``, or is not, the condition that says so of the file."""
         if isinstance(expr, Apply) and expr.op in (Op.EQ, Op.NE):
             for one, other in (expr.args, expr.args[::-1]):
                 if isinstance(one, Var) and isinstance(other, Const):
                     found = self.active.get((one.name, other.value))
                     if found is not None:
                         return found if expr.op is Op.EQ else ~found
+        return None
+
+    def _expr(self, expr: Expr) -> Expr:
+        found = self.state(expr)
+        if found is not None:
+            return found
         if isinstance(expr, Var):
             assert expr.name in self.inside, f"{expr.name} is not in the file"
             return self.inside[expr.name]
@@ -177,16 +184,21 @@ def _run(system: System, folder: Path) -> Counter[str]:
 
 def _decided(system: System, properties: list[Property], folder: Path, seconds: float) -> Counter[str]:
     """How many verdicts of the properties of one system are the same, differ, or are not known."""
-    told = Counter[str]()
     try:
         again = ReadAgain(system, folder)
-        asked = [again.property(one) for one in properties]
     except ModelError as error:
         print(f"{system.name}: {str(error).splitlines()[0][:300]}")
         return Counter({"refused": len(properties)})
-    search = SearchSettings(limits=Limits(seconds=seconds), jobs=1)
-    since = monotonic()
+    return compared(system, again, properties, SearchSettings(limits=Limits(seconds=seconds), jobs=1))
+
+
+def compared(
+    system: System, again: ReadAgain, properties: Sequence[Property], search: SearchSettings
+) -> Counter[str]:
+    """How many verdicts of properties are the same on what is read of a file, differ, or are not known."""
+    told, since = Counter[str](), monotonic()
     try:
+        asked = [again.property(one) for one in properties]
         for result in results(asked, {system.name: again.read}, search, quiet=True):
             word = _compared(result, "read again" if system.concrete else "")
             told[word] += 1
@@ -196,7 +208,7 @@ def _decided(system: System, properties: list[Property], folder: Path, seconds: 
             since = monotonic()
     except ModelError as error:
         if len(properties) > 1:
-            return sum((_decided(system, [one], folder, seconds) for one in properties), Counter())
+            return sum((compared(system, again, [one], search) for one in properties), Counter())
         print(f"{properties[0].id:24} {system.name:32} not asked: {str(error).splitlines()[0]}", flush=True)
         return Counter({"not asked": 1})
     return told

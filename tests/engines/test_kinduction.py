@@ -8,8 +8,9 @@ from hypothesis import given
 
 from benchmarks.roverlite import roverlite
 from rovercheck.checker.engines import Limits, engines, kinduction, quiet
+from rovercheck.checker.engines.kinduction import invariant_search
 from rovercheck.checker.engines.kinduction.invariant_search import InvariantSearch
-from rovercheck.checker.engines.kinduction.search import search
+from rovercheck.checker.engines.kinduction.search import InductionGroup, InductionModel, search
 from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from rovercheck.checker.search import (
     DepthSearched,
@@ -105,6 +106,26 @@ def proved(system: TransitionSystem) -> Inductive:
 @pytest.mark.parametrize("limit", [2, 3, 7, 9])
 def test_two_counters_are_related(limit: int) -> None:
     proved(relay(limit))
+
+
+def test_what_is_given_is_tried_before_anything_is_searched(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That three counters add up to a fourth is no template; a condition that is no invariant is dropped."""
+    monkeypatch.setattr(invariant_search, "ROUNDS", 0)
+    parts = [var(f"part{i}", integer(0, 12)) for i in range(3)]
+    total, asked = var("total", integer(0, 36)), [flag(f"more{i}") for i in range(3)]
+    each: list[Assign | If] = [
+        If(more & (part < 12), (Assign(part, part + 1), Assign(total, total + 1)))
+        for more, part in zip(asked, parts, strict=True)
+    ]
+    adds_up = total == parts[0] + parts[1] + parts[2]
+    step = (*each, Assign(GOAL, ~adds_up))
+    system = TransitionSystem("sums", tuple(asked), (), (*parts, total, GOAL), (), step)
+    model = InductionModel(system)
+    found = {
+        given: answered(InductionGroup(model, ["goal"], None, given).decide(), [GOAL])["goal"]
+        for given in ((), (total < 3,), (total < 3, adds_up))
+    }
+    assert [type(answer) for answer in found.values()] == [Open, Open, Unreachable]
 
 
 def test_a_state_that_is_never_entered_is_excluded() -> None:

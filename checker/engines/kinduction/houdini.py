@@ -106,11 +106,15 @@ class Consecution:
 
 def of_given(scope: Scope, candidates: Sequence[Expr]) -> Consecution:
     """The greatest inductive subset of the candidates that speak of the scope only.  Raises ``GaveUp``."""
-    spoken = {v.name for v in (*scope.part.frozen, *scope.part.variables)}
-    inside = [c for c in candidates if variables(c).keys() <= spoken]
     found = Consecution(scope)
-    found.grow(initially(scope, inside))
+    found.grow(initially(scope, spoken(scope, candidates)))
     return found
+
+
+def spoken(scope: Scope, conditions: Sequence[Expr]) -> list[Expr]:
+    """The conditions that speak of nothing but the scope."""
+    known = {v.name for v in (*scope.part.frozen, *scope.part.variables)}
+    return [c for c in conditions if variables(c).keys() <= known]
 
 
 def unbroken(conditions: Sequence[Expr], at: Columns) -> list[Expr]:

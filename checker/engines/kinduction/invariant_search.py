@@ -4,13 +4,13 @@ Of the rich templates only those candidates are tried that exclude the states a 
 stands for, or the states that lead there when the first ones are not inductive alone.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from rovercheck.checker.encode.invariants import Candidates, TemplateCube, TemplatePool
 from rovercheck.checker.encode.simulate import Trail
-from rovercheck.checker.engines.kinduction.houdini import Consecution, initially, unbroken
+from rovercheck.checker.engines.kinduction.houdini import Consecution, initially, spoken, unbroken
 from rovercheck.checker.engines.kinduction.ticks import Scope
 from rovercheck.spec_model.lang.expr import Expr
 
@@ -29,11 +29,13 @@ _BRANCHES = 6
 class InvariantSearch:
     """An inductive invariant that grows, and the counterexamples still to be answered.
 
-    ``invariant`` is what is known so far; ``answered`` counts those to which clauses were tried.
+    ``invariant`` is what is known so far; ``answered`` counts those to which clauses were tried.  What is
+    ``given`` may be part of it: that is tried first.
     """
 
-    def __init__(self, scope: Scope, trail: Trail) -> None:
+    def __init__(self, scope: Scope, trail: Trail, given: Sequence[Expr] = ()) -> None:
         self._scope, self._trail = scope, trail
+        self._given = spoken(scope, given)
         self._candidates = Candidates(scope.part, trail.samples(EVERY))
         self.invariant = Consecution(scope)
         self._random = np.random.default_rng(0)
@@ -49,6 +51,8 @@ class InvariantSearch:
     def phases(self) -> Iterator[str]:
         """What has been done, each time the invariant has grown."""
         made = self._candidates
+        if self._grow(self._given):
+            yield self._said("given")
         self._grow(made.ranges())
         yield self._said("ranges")
         if self._grow(made.latched()):

@@ -135,10 +135,16 @@ class InductionModel:
 
 
 class InductionGroup:
-    """Goals that are decided together: those still open, and the ticks they are not reached in."""
+    """Goals that are decided together: those still open, and the ticks they are not reached in.
 
-    def __init__(self, model: InductionModel, goals: Sequence[str], depth: int | None) -> None:
+    What is ``given`` is tried as part of an invariant before anything else is.
+    """
+
+    def __init__(
+        self, model: InductionModel, goals: Sequence[str], depth: int | None, given: Sequence[Expr] = ()
+    ) -> None:
         self._model, self._most = model, depth
+        self._given = model.as_folded(given)
         self.open = list(goals)
         self.deep = 0
         near = as_written(model.system, goals)
@@ -248,7 +254,7 @@ class InductionGroup:
             yield from self._with_invariants(trail)
 
     def _with_invariants(self, trail: Trail) -> Iterator[SearchEvent]:
-        found = InvariantSearch(self._scope, trail)
+        found = InvariantSearch(self._scope, trail, self._given)
         for text in found.phases():
             yield SearchPhase(text)
             yield from self._attempts(found.invariant, min(WINDOW, self.deep), found.note)
