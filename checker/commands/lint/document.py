@@ -43,7 +43,8 @@ class LintSummary(TypedDict):
     states: int
     transitions: int
     asked: bool
-    """Whether states and transitions were asked about, which is so unless some run has no meaning."""
+    """Whether states and transitions were asked about: unless some run has no meaning, or it was interrupted
+    before that."""
     questions: int
     """How many there are, about states, transitions, conditions, orders and integers."""
     answered: int
