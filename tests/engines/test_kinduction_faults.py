@@ -52,7 +52,10 @@ def all_candidates_are_taken_as_they_come(patch: Patch) -> None:
 
 
 def a_support_is_left_out(patch: Patch) -> None:
-    """Only the conjuncts that exclude the goal are told, not those that make them inductive."""
+    """One of the conjuncts that exclude the goal together is told, and none of those that make it inductive.
+
+    Which one is the first depends on all that Z3 was asked before: it may be inductive, and not enough.
+    """
     patch.setattr(houdini.Consecution, "support", lambda self, needed: list(needed)[:1])
 
 
@@ -106,16 +109,16 @@ def no_candidates(patch: Patch) -> None:
 
 
 class TestKinduction(PatchSuite):
-    OBLIGATION: ClassVar[Mapping[Fault, str]] = {
-        all_candidates_are_taken_as_they_come: "consecution",
-        a_support_is_left_out: "consecution",
-        a_domain_constraint_is_dropped: "domains",
-        the_base_case_is_not_looked_at: "base",
-        an_unrolling_is_one_tick_off: "safety",
-        simple_paths_are_too_simple: "safety",
+    OBLIGATIONS: ClassVar[Mapping[Fault, set[str]]] = {
+        all_candidates_are_taken_as_they_come: {"consecution"},
+        a_support_is_left_out: {"consecution", "safety"},
+        a_domain_constraint_is_dropped: {"domains"},
+        the_base_case_is_not_looked_at: {"base"},
+        an_unrolling_is_one_tick_off: {"safety"},
+        simple_paths_are_too_simple: {"safety"},
     }
-    """Each fault with an obligation that plain enumeration must find broken."""
-    FAULTS = tuple(OBLIGATION)
+    """Each fault with the obligations of which plain enumeration must find one broken."""
+    FAULTS = tuple(OBLIGATIONS)
 
     def wrong(self) -> Iterator[str]:
         for make in (*PROVED, *OTHERS):
@@ -123,7 +126,7 @@ class TestKinduction(PatchSuite):
 
     def killed(self, fault: Fault, patch: Patch) -> bool:
         fault(patch)
-        return self.OBLIGATION[fault] in self.wrong()
+        return not self.OBLIGATIONS[fault].isdisjoint(self.wrong())
 
 
 @pytest.mark.parametrize("make", PROVED)

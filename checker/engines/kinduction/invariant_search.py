@@ -51,7 +51,7 @@ class InvariantSearch:
     def phases(self) -> Iterator[str]:
         """What has been done, each time the invariant has grown."""
         made = self._candidates
-        if self._grow(self._given):
+        if self._given and self._grow(self._given):
             yield self._said("given")
         self._grow(made.ranges())
         yield self._said("ranges")
