@@ -88,6 +88,12 @@ class Model:
             if self.path is not None and self.path.suffix in FOREIGN:
                 page = {SIMULINK: "simulink", SCXML: "scxml"}.get(self.path.suffix, "xstate")
                 forms += f", in {self.path.stem}_properties.py beside it (docs/{page}.md)"
+            elif self.path is not None and self.path.with_name(f"{self.path.stem}_properties.py").exists():
+                folder = quote(shown(self.path.absolute().parent))
+                raise ModelError(
+                    f"{self.name} holds no property: {self.path.stem}_properties.py beside it is read with "
+                    f"the folder, --model {folder}"
+                )
             raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
         return self.properties
 

@@ -157,3 +157,12 @@ def test_a_model_without_properties_can_be_drawn_but_not_checked(tmp_path: Path)
     assert list(model.charts) == ["Heater"]
     with pytest.raises(ModelError, match="holds no property"):
         model.stated()
+
+
+def test_properties_in_a_file_of_its_own_are_read_with_the_folder(tmp_path: Path) -> None:
+    """As ``import --write`` writes them."""
+    begins = HEATER.index("REQUIREMENTS")
+    (tmp_path / "heater.py").write_text(HEATER[:begins])
+    (tmp_path / "heater_properties.py").write_text(f"from heater import *\n{HEATER[begins:]}")
+    with pytest.raises(ModelError, match=rf"heater_properties.py .* with the folder, --model {tmp_path}"):
+        load(tmp_path / "heater.py").stated()
