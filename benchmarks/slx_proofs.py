@@ -118,7 +118,12 @@ def _as_it_began(var: Var) -> Expr:
 
 def main(ids: list[str]) -> int:
     """Carry over, decide, and print what differs; the exit code."""
-    told = Counter[str]()
+    kept, told = invariants_of_rover(), Counter[str]()
+    unknown = [id for id in ids if id not in kept or id not in catalogue()]
+    if unknown or not ids:
+        wrong = f"No proof is kept of {', '.join(unknown)}" if unknown else "No property is named"
+        print(f"{wrong}: name some of properties/invariants.json.", file=sys.stderr)
+        return 2
     for prop in map(catalogue().__getitem__, ids):
         system = systems()[prop.on]
         with tempfile.TemporaryDirectory() as folder:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.slx_proofs import CarriedOver
+from benchmarks.slx_proofs import CarriedOver, main
 from benchmarks.slx_verdicts import ReadAgain, compared
 from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import catalogue
@@ -20,3 +20,12 @@ def test_a_kept_proof_is_carried_over(id: str, tmp_path: Path) -> None:
     assert found
     kept = SearchSettings(jobs=1, invariants={id: found})
     assert compared(systems()[prop.on], again, [prop], kept) == {"same": 1}
+
+
+@pytest.mark.parametrize(
+    ("ids", "said"), [(["PB9"], "No proof is kept of PB9"), ([], "No property is named")]
+)
+def test_without_a_kept_proof_there_is_a_message(
+    ids: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(ids) == 2 and said in capsys.readouterr().err
